@@ -1,0 +1,1 @@
+"""Who the tracer is held against, and the verdict."""

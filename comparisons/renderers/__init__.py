@@ -1,0 +1,1 @@
+"""Renderer adapters, one file a renderer."""

@@ -1,0 +1,169 @@
+"""The results format: the only contract between judging and showing.
+
+A results directory holds `results.json` (this model) and, in `cells/SCENE/RENDERER-INTEGRATOR/`, the images of each
+cell as float32 EXR. Paths in the file are relative to the directory.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from pydantic import BaseModel, ConfigDict
+
+SCHEMA_VERSION = 1
+RESULTS_FILE = "results.json"
+
+
+class Verdict(StrEnum):
+    """What a cell can be; only `fail` and `error` make a run fail."""
+
+    PASS = "pass"
+    FAIL = "fail"
+    INCOMPARABLE = "incomparable"
+    UNAVAILABLE = "unavailable"
+    ERROR = "error"
+
+
+class Record(BaseModel):
+    """A part of the results: immutable, and without keys that it does not know."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Metrics(Record):
+    """Global measures of difference from the truth, for information: never the gate. None: could not be computed."""
+
+    largest_difference: float | None = None
+    mean_difference: float | None = None
+    """Signed, so that a bias shows."""
+    rmse: float | None = None
+    relative_mse: float | None = None
+    psnr: float | None = None
+    """Decibels relative to the truth's largest value; None for identical images, too."""
+    ssim: float | None = None
+    flip: float | None = None
+    delta_e_2000: float | None = None
+    """Largest CIE ΔE2000 of the sRGB pictures."""
+
+
+class WorstPixel(Record):
+    """The pixel farthest outside its feasible set, in units of that pixel's tolerance."""
+
+    x: int
+    y: int
+    value: tuple[float, float, float]
+    truth: tuple[float, float, float]
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+    tolerances: float
+    """Distance from the truth in units of the tolerance: above 1 the pixel fails."""
+
+
+class Judgement(Record):
+    """How the pixels of an image fared."""
+
+    pixels: int
+    failing: int
+    unjudged: int
+    """Pixels whose feasible set was too large to enumerate."""
+    ambiguous: int
+    """Pixels where the renderer's arithmetic allows more than one outcome (edges, shadow boundaries)."""
+    worst: WorstPixel | None = None
+
+
+class StochasticTest(Record):
+    """The test of a noisy mean against the truth."""
+
+    samples: int
+    batches: int
+    significance: float
+    """Probability that a right renderer fails this cell, at most."""
+    smallest_p_value: float
+    """After correction for the number of tests."""
+
+
+class FirstHitComparison(Record):
+    """The first hits of the very same rays, over pixels whose primitive is certain."""
+
+    compared: int
+    primitive_mismatches: int
+    ambiguous: int
+    """Pixels where float32 may hit either of two primitives, or miss."""
+    largest_depth_error: float
+    largest_position_error: float
+    largest_normal_error: float
+    failing: int
+
+
+class Images(Record):
+    """Paths of a cell's images, relative to the results directory."""
+
+    render: str
+    truth: str
+    tolerances: str
+    """One channel: distance from the truth in units of the pixel's tolerance; -1 where unjudged."""
+    variance: str | None = None
+
+
+class Cell(Record):
+    """One scene on one renderer."""
+
+    scene: str
+    renderer: str
+    integrator: str
+    verdict: Verdict
+    reason: str
+    largest_error: float | None = None
+    seconds: float | None = None
+    """Wall-clock time of the renderer alone, without its start."""
+    version: str | None = None
+    judgement: Judgement | None = None
+    stochastic: StochasticTest | None = None
+    first_hits: FirstHitComparison | None = None
+    metrics: Metrics | None = None
+    images: Images | None = None
+    log: str | None = None
+    """Path of the renderer's log, relative to the results directory."""
+    command: str
+    """The command that repeats this cell."""
+    key: str = ""
+    """Hash of all the cell depends on; a cell with the same key need not be run again."""
+
+
+class SceneRecord(Record):
+    """What the report says of a scene."""
+
+    name: str
+    purpose: str
+    convention: str
+    width: int
+    height: int
+    features: tuple[str, ...]
+    light_paths: str
+    """The scene's own light paths in Heckbert's notation."""
+
+
+class RendererRecord(Record):
+    """What the report says of a renderer."""
+
+    name: str
+    version: str | None
+    """None where it is not available."""
+    install: str
+    """One line that says how to install it."""
+    error_model: str
+    integrators: dict[str, str]
+    """Light-path class of each integrator, in Heckbert's notation."""
+
+
+class Results(Record):
+    """A run of the matrix."""
+
+    schema_version: int = SCHEMA_VERSION
+    raytruth_version: str
+    created: str
+    command: str
+    machine: dict[str, str]
+    scenes: tuple[SceneRecord, ...]
+    renderers: tuple[RendererRecord, ...]
+    cells: tuple[Cell, ...]

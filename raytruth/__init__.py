@@ -1,0 +1,1 @@
+"""The front door: command line. It wires, it decides nothing."""

@@ -1,0 +1,1 @@
+"""How a scene is rendered from scratch, and what the truth is."""

@@ -1,0 +1,62 @@
+"""Lights and what surrounds the scene."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from scenes.values import Color, Direction, NonNegative, Part, Vector
+
+
+class PolynomialFalloff(Part):
+    """Attenuation min(1, 1/(constant + linear·d + quadratic·d²)) at distance d (Foley, van Dam 1990, eq. 16.8)."""
+
+    constant: NonNegative
+    linear: NonNegative
+    quadratic: NonNegative
+
+    @model_validator(mode="after")
+    def _attenuates(self) -> PolynomialFalloff:
+        if self.constant == self.linear == self.quadratic == 0:
+            raise ValueError("expected at least one of constant, linear and quadratic above 0")
+        return self
+
+
+Falloff = Literal["none", "inverse_square"] | PolynomialFalloff
+
+
+class PointLight(Part):
+    """Light from one point: intensity [W/sr] per channel in the radiometric convention, unitless in the classical one."""
+
+    kind: Literal["point"]
+    position: Vector
+    intensity: Color
+    falloff: Falloff
+
+
+class DirectionalLight(Part):
+    """Parallel light: `direction` is the way it travels; `irradiance` is what a surface facing it receives."""
+
+    kind: Literal["directional"]
+    direction: Direction
+    irradiance: Color
+
+
+Light = Annotated[PointLight | DirectionalLight, Field(discriminator="kind")]
+
+
+class ConstantBackground(Part):
+    """The same radiance in every direction."""
+
+    color: Color
+
+
+class GradientBackground(Part):
+    """From `bottom` (straight down, -y) to `top` (straight up, +y), linear in the y of the unit direction."""
+
+    bottom: Color
+    top: Color
+
+
+Background = ConstantBackground | GradientBackground

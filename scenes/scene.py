@@ -1,0 +1,34 @@
+"""The scene: everything a renderer needs to know, and nothing a scene does not state."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from scenes.camera import Camera
+from scenes.lights import Background, ConstantBackground, Light
+from scenes.materials import Material
+from scenes.shapes import Shape
+from scenes.values import Color, Part
+
+# A full binary ray tree of this depth has 2^65 rays; corridors of mirrors, which do not branch, stay affordable.
+LARGEST_DEPTH = 64
+
+
+class Scene(Part):
+    """A scene in one of two lighting conventions, `whitted` (unitless) or `radiometric` (docs/spec.md)."""
+
+    name: str = ""
+    """From the file's name, not from its text."""
+    purpose: Annotated[str, Field(min_length=1)]
+    """One sentence: what a renderer that gets this scene wrong has got wrong."""
+    convention: Literal["whitted", "radiometric"]
+    max_depth: Annotated[int, Field(strict=True, ge=0, le=LARGEST_DEPTH)] = 0
+    """How many mirror reflections and refractions a path may have."""
+    camera: Camera
+    background: Background = ConstantBackground(color=(0.0, 0.0, 0.0))
+    ambient_light: Color = (0.0, 0.0, 0.0)
+    lights: tuple[Light, ...] = ()
+    materials: Annotated[dict[str, Material], Field(min_length=1)]
+    objects: Annotated[tuple[Shape, ...], Field(min_length=1)]
