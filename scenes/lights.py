@@ -27,7 +27,7 @@ Falloff = Literal["none", "inverse_square"] | PolynomialFalloff
 
 
 class PointLight(Part):
-    """Light from one point: intensity [W/sr] per channel in the radiometric convention, unitless in the classical one."""
+    """Light from one point; intensity per channel in W/sr, or without a unit in the classical convention."""
 
     kind: Literal["point"]
     position: Vector

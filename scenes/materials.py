@@ -10,7 +10,7 @@ from scenes.values import SMALLEST_INDEX, Color, Coordinate, Part, Positive
 
 
 class Checkerboard(Part):
-    """Squares in the plane of two world axes: `even` where floor((u-u0)/size)+floor((v-v0)/size) is even, else `odd`."""
+    """Squares in the plane of two axes: `even` where floor((u-u0)/size) + floor((v-v0)/size) is even, else `odd`."""
 
     even: Color
     odd: Color
