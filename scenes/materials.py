@@ -9,6 +9,9 @@ from pydantic import Field, model_validator
 from scenes.values import SMALLEST_INDEX, Color, Coordinate, Part, Positive
 
 
+Index = Annotated[float, Field(allow_inf_nan=False, strict=True, ge=SMALLEST_INDEX, le=1 / SMALLEST_INDEX)]
+
+
 class Checkerboard(Part):
     """Squares in the plane of two axes: `even` where floor((u-u0)/size) + floor((v-v0)/size) is even, else `odd`."""
 
@@ -63,9 +66,7 @@ class Dielectric(Part):
     constants `reflectance` (ks) and `transmittance` (kt), which belong together.
     """
 
-    index_of_refraction: Annotated[
-        float, Field(allow_inf_nan=False, strict=True, ge=SMALLEST_INDEX, le=1 / SMALLEST_INDEX)
-    ]
+    index_of_refraction: Index
     absorption: Color | None = None
     outside: str | None = None
     reflectance: Color | None = None
@@ -74,9 +75,7 @@ class Dielectric(Part):
     @model_validator(mode="after")
     def _both_constants_or_none(self) -> Dielectric:
         if (self.reflectance is None) != (self.transmittance is None):
-            raise ValueError(
-                "expected both reflectance and transmittance, or neither (then Fresnel's equations weight)"
-            )
+            raise ValueError("expected both reflectance and transmittance, or neither")
         return self
 
 
