@@ -8,7 +8,6 @@ from pydantic import Field, model_validator
 
 from scenes.values import SMALLEST_INDEX, Color, Coordinate, Part, Positive
 
-
 Index = Annotated[float, Field(allow_inf_nan=False, strict=True, ge=SMALLEST_INDEX, le=1 / SMALLEST_INDEX)]
 
 
