@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from scenes.values import Color, Direction, NonNegative, Part, Vector
 
@@ -23,7 +23,15 @@ class PolynomialFalloff(Part):
         return self
 
 
-Falloff = Literal["none", "inverse_square"] | PolynomialFalloff
+def _falloff_tag(falloff: object) -> str:
+    return "<polynomial>" if isinstance(falloff, dict | PolynomialFalloff) else "<named>"
+
+
+# With tags an error names the form that was meant; the brackets keep tags apart from keys.
+Falloff = Annotated[
+    Annotated[Literal["none", "inverse_square"], Tag("<named>")] | Annotated[PolynomialFalloff, Tag("<polynomial>")],
+    Discriminator(_falloff_tag),
+]
 
 
 class PointLight(Part):
@@ -59,4 +67,14 @@ class GradientBackground(Part):
     top: Color
 
 
-Background = ConstantBackground | GradientBackground
+def _background_tag(background: object) -> str:
+    is_gradient = isinstance(background, GradientBackground) or (
+        isinstance(background, dict) and ("top" in background or "bottom" in background)
+    )
+    return "<gradient>" if is_gradient else "<constant>"
+
+
+Background = Annotated[
+    Annotated[ConstantBackground, Tag("<constant>")] | Annotated[GradientBackground, Tag("<gradient>")],
+    Discriminator(_background_tag),
+]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from scenes.values import SMALLEST_INDEX, Color, Coordinate, Part, Positive
 
@@ -27,7 +27,15 @@ class CheckerboardColor(Part):
     checkerboard: Checkerboard
 
 
-Texture = Color | CheckerboardColor
+def _texture_tag(texture: object) -> str:
+    return "<checkerboard>" if isinstance(texture, dict | CheckerboardColor) else "<color>"
+
+
+# With tags an error names the form that was meant; the brackets keep tags apart from keys.
+Texture = Annotated[
+    Annotated[Color, Tag("<color>")] | Annotated[CheckerboardColor, Tag("<checkerboard>")],
+    Discriminator(_texture_tag),
+]
 
 
 class Ambient(Part):
@@ -96,6 +104,6 @@ class Material(Part):
 
     @model_validator(mode="after")
     def _states_a_term(self) -> Material:
-        if not self.model_fields_set:
+        if all(getattr(self, term) is None for term in type(self).model_fields):
             raise ValueError("expected at least one term: ambient, diffuse, specular, mirror, dielectric or emission")
         return self

@@ -21,9 +21,15 @@ Color = tuple[NonNegative, NonNegative, NonNegative]
 """Linear RGB, each component 0 or more; reflectances may exceed 1, so that a test can break energy conservation."""
 
 
+# The square of a shorter vector leaves the normal float32 numbers, whose smallest is 1.2e-38.
+SHORTEST_DIRECTION = 1e-18
+
+
 def _not_zero(vector: Vector) -> Vector:
     if vector == (0.0, 0.0, 0.0):
         raise ValueError("expected a vector that is not zero, since it gives a direction")
+    if max(map(abs, vector)) < SHORTEST_DIRECTION:
+        raise ValueError(f"expected a vector longer than {SHORTEST_DIRECTION:g}, since it gives a direction")
     return vector
 
 
