@@ -1,0 +1,121 @@
+"""The test of a renderer with random numbers: could its noisy mean come from the truth?
+
+Null hypothesis: at every pixel and channel the expectation lies in a given interval. Nothing is assumed about the
+distribution of the samples but its range, so heavy tails and rare bright lobes raise no false alarm. Samples must be
+independent, also between pixels.
+
+Why not a test on the variance: an estimate from a few batches misses rare lobes altogether, and a normal law for the
+mean then alarms far too often; bounds that hold with an estimated variance (Maurer, Pontil 2009, theorem 4) need
+more batches than one would render. The variance is reported, not tested.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from comparisons.results import StochasticTest
+
+SIGNIFICANCE = 1e-3
+"""A right renderer fails one cell in a thousand at most: with twenty noisy cells, less than one run in fifty."""
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class StochasticOutcome:
+    """The verdict on one image, with where it comes from."""
+
+    test: StochasticTest
+    passes: bool
+    p_values: Array
+    """Shape (height, width, 3): the smallest of all tests that the pixel takes part in, after correction."""
+    variance: Array
+    """Shape (height, width, 3): of the mean over all samples, estimated from the batch means."""
+
+
+def compare_means(
+    low: ArrayLike, high: ArrayLike, batch_means: ArrayLike, samples: int, bound: float
+) -> StochasticOutcome:
+    """Test the mean of all batches against the interval [low, high] of its expectation.
+
+    `low` and `high` have shape (height, width, 3): the truth, widened by what the renderer's arithmetic may do.
+    `batch_means` has shape (batches, height, width, 3), at least 2 batches of equally many samples; `samples` counts
+    those of a pixel in all batches. `bound` is above every single sample that a right renderer can draw, in the same
+    unit, rounding included, and not below `high`; samples are never negative.
+
+    Pixels, and blocks of 2x2, 4x4, … up to the whole image, are tested each on their mean, and Bonferroni's correction
+    counts all these tests in all channels. A batch mean that is negative, above `bound` or not finite fails outright.
+    Raises ValueError for arguments outside these ranges.
+    """
+    lowest, highest, means = (np.asarray(array, dtype=np.float64) for array in (low, high, batch_means))
+    _check(lowest, highest, means, samples, bound)
+    is_possible = np.all((means >= 0) & (means <= bound), axis=0)  # False for NaN
+    # An impossible mean has p = 0 at its own pixel; it must not make the means of its blocks undefined.
+    mean = np.where(is_possible, means, lowest).mean(axis=0)
+    p_values = np.where(is_possible, 1.0, 0.0)
+    tests = 0
+    for size in _block_sizes(*mean.shape[:2]):
+        pixels = _block_sums(np.ones_like(mean), size)
+        x, floor, ceiling = (_block_sums(image / bound, size) / pixels for image in (mean, lowest, highest))
+        of_blocks = _p_values(x, floor, ceiling, samples * pixels)
+        p_values = np.minimum(p_values, _spread(of_blocks, size, mean.shape))
+        tests += of_blocks.size
+    p_values = np.minimum(p_values * tests, 1.0)
+    smallest = float(p_values.min())
+    with np.errstate(invalid="ignore"):  # infinite means have no variance
+        variance = means.var(axis=0, ddof=1) / len(means)
+    test = StochasticTest(samples=samples, batches=len(means), significance=SIGNIFICANCE, smallest_p_value=smallest)
+    return StochasticOutcome(test, smallest > SIGNIFICANCE, p_values, variance)
+
+
+def _p_values(mean: Array, low: Array, high: Array, count: Array) -> Array:
+    """At most the probability of a mean this far outside [low, high]; all in units of the samples' bound.
+
+    For the mean X of n independent variables in [0, 1] with expectation μ, P(X ≥ x) ≤ exp(−n·KL(x ‖ μ)) for x > μ, and
+    likewise below (Hoeffding 1963, "Probability Inequalities for Sums of Bounded Random Variables", theorem 1,
+    eq. 2.1). They need not have the same distribution, so that it holds for a block of pixels, too. It decreases away
+    from μ: the nearer end of the interval is the worst case. The factor 2 pays for looking at both sides.
+    """
+    nearest = np.clip(mean, low, high)
+    return np.minimum(1.0, 2.0 * np.exp(-count * relative_entropy(mean, nearest)))
+
+
+def relative_entropy(x: Array, mu: Array) -> Array:
+    """KL(x ‖ μ) = x·ln(x/μ) + (1−x)·ln((1−x)/(1−μ)) of two Bernoulli laws, x and μ in [0, 1]; infinite if x > μ = 0."""
+    return np.maximum(_entropy_term(x, mu) + _entropy_term(1 - x, 1 - mu), 0.0)  # rounding may leave -1e-17
+
+
+def _entropy_term(x: Array, mu: Array) -> Array:
+    """x·ln(x/μ), which tends to 0 with x."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(x > 0, x * np.log(x / mu), 0.0)
+
+
+def _block_sizes(height: int, width: int) -> list[int]:
+    """1, 2, 4, … up to a block that holds the whole image."""
+    return [2**level for level in range((max(height, width) - 1).bit_length() + 1)]
+
+
+def _block_sums(image: Array, size: int) -> Array:
+    """The sums over blocks of size x size pixels; those at the right and lower border may be smaller."""
+    by_rows = np.add.reduceat(image, np.arange(0, image.shape[0], size), axis=0)
+    sums: Array = np.add.reduceat(by_rows, np.arange(0, image.shape[1], size), axis=1)
+    return sums
+
+
+def _spread(blocks: Array, size: int, shape: tuple[int, ...]) -> Array:
+    """Every block's value at each of its pixels."""
+    return blocks.repeat(size, axis=0)[: shape[0]].repeat(size, axis=1)[:, : shape[1]]
+
+
+def _check(low: Array, high: Array, batch_means: Array, samples: int, bound: float) -> None:
+    shape = low.shape
+    if low.ndim != 3 or high.shape != shape or batch_means.shape[1:] != shape or low.size == 0:
+        raise ValueError(f"expected images of one shape (h, w, 3), got {shape}, {high.shape}, {batch_means.shape[1:]}")
+    if len(batch_means) < 2 or samples < len(batch_means):
+        raise ValueError(f"expected 2 batches or more of 1 sample or more, got {len(batch_means)} of {samples} in all")
+    if not (np.all(low >= 0) and np.all(low <= high) and np.all(high <= bound) and 0 < bound < np.inf):
+        raise ValueError("expected 0 <= low <= high <= bound, with a finite bound above 0")
