@@ -1,0 +1,190 @@
+"""Mitsuba 3 as a renderer: `mitsuba` is its variant scalar_rgb, `mitsuba-llvm` its variant llvm_ad_rgb."""
+
+from __future__ import annotations
+
+import functools
+import sys
+import zipfile
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from comparisons.error_model import ErrorModel
+from comparisons.isolation import run_isolated
+from comparisons.renderer import FirstHits, Integrator, Rays, Renderer, RendererError, Rendering
+from comparisons.renderers.mitsuba_job import JOB_FILE, RAYS_FILE, RESULT_FILE, Job
+from scenes.camera import OrthographicCamera
+from scenes.exporters import mitsuba as exporter
+from scenes.exporters.mitsuba_limits import refuses, reversed_primitives
+from scenes.materials import Emission, Material
+from scenes.requirements import used_materials
+from scenes.scene import Scene
+from scenes.shapes import Sphere
+
+# Mitsuba 3.9.1 moves the origin of a secondary ray from p along the geometric normal n, to the side the ray goes to,
+# by (1 + max|p|)·RayEpsilon (include/mitsuba/render/interaction.h lines 186-190, `offset_p`, used by `spawn_ray` and
+# `spawn_ray_to`). RayEpsilon = 1500·Epsilon of float32 (include/mitsuba/core/math.h line 18), where Dr.Jit's
+# Epsilon is half an ulp of 1, 2^-24; the same in all variants with Embree.
+RAY_EPSILON = 1500 * 2.0**-24
+# A shadow ray ends at (1 - ShadowEpsilon) of the way from its moved origin to the light (interaction.h line 171);
+# ShadowEpsilon = 10·RayEpsilon (math.h line 22).
+SHADOW_EPSILON = 10 * RAY_EPSILON
+
+# How many random samples a pixel gets. A fault that changes a pixel by a fraction f of its standard deviation σ is
+# found when f·sqrt(samples) exceeds the quantile of the test, so four times the samples find faults half as large:
+# 512 see 0.4 σ at a quantile of 10, 4096 see 0.16 σ. Many batches rather than few, since the quantile of Student's
+# law at the corrected significance of 64x64 pixels (some 1e-10) is 9.6 with 32 batches and 16 with 16.
+# Measured for a glass sphere at 64x64 and depth 8 on 2 cores: 2.8 s scalar, 3.3 s with LLVM.
+BATCHES = 32
+BATCH_SAMPLES = {"scalar_rgb": 16, "llvm_ad_rgb": 128}
+
+# A 512x512 scene of some thousand triangles takes seconds; a hang must not stop a run for long.
+TIME_LIMIT = 300.0
+# Of address space. A 64x64 scene takes 0.5 GB (0.65 GB with LLVM), the largest mesh some more, and each thread of a
+# large machine about 70 MB: this is room for all of these, and still ends a runaway before it takes the machine along.
+MEMORY_LIMIT = 16 << 30
+
+# Shapes of the worker's arrays after the image's height and width.
+RESULT_SHAPES = {"image": (3,), "depth": (), "position": (3,), "normal": (3,), "primitive": ()}
+
+# One pixel that looks at a shining sphere: the least that makes a variant compile and trace.
+TRIAL_SCENE = Scene(
+    purpose="Shows whether Mitsuba runs here.",
+    convention="radiometric",
+    camera=OrthographicCamera(
+        projection="orthographic", position=(0.0, 0.0, 2.0), look_at=(0.0, 0.0, 0.0), width=1, height=1, view_height=1.0
+    ),
+    materials={"light": Material(emission=Emission(radiance=(1.0, 1.0, 1.0)))},
+    objects=(Sphere(shape="sphere", center=(0.0, 0.0, 0.0), radius=1.0, material="light"),),
+)
+TRIAL_RAYS = Rays(origins=np.array([[[0.0, 0.0, 2.0]]]), directions=np.array([[[0.0, 0.0, -1.0]]]))
+
+
+def mitsuba_scalar() -> Renderer:
+    """Mitsuba's variant that computes one ray at a time."""
+    return MitsubaRenderer("mitsuba", "scalar_rgb", "pip install mitsuba")
+
+
+def mitsuba_llvm() -> Renderer:
+    """Mitsuba's variant that compiles for the processor's vector instructions, in float32 throughout."""
+    return MitsubaRenderer("mitsuba-llvm", "llvm_ad_rgb", "pip install mitsuba; apt install libllvm19")
+
+
+class MitsubaRenderer:
+    """A variant of Mitsuba, obeying comparisons.renderer.Renderer."""
+
+    integrators = (
+        Integrator("direct", "E(S?e|D[Le])"),
+        Integrator("path", "E[DS]{{0,{depth}}}(L|e)", has_depth=True),
+    )
+    """With `depth` surface vertices before the light, which Mitsuba calls max_depth = depth + 1."""
+
+    error_model = ErrorModel(
+        description="float32 with rays that start off the surface (Mitsuba 3.9)",
+        precision_bits=20,
+        ray_offset=RAY_EPSILON,
+        shadow_shortening=SHADOW_EPSILON,
+    )
+
+    def __init__(self, name: str, variant: str, install: str) -> None:
+        self.name = name
+        self.variant = variant
+        self.install = install
+
+    def version(self) -> str | None:
+        """`mitsuba` and its version, or None where a trial in a process of its own fails."""
+        return _try_variant(self.variant)
+
+    def refuses(self, scene: Scene) -> str | None:
+        """Why Mitsuba cannot express this scene, in one clause; None if it can."""
+        return refuses(scene)
+
+    def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - both integrators pick a lobe
+        """Whether there is a dielectric: both integrators reflect or refract at random there."""
+        return any(material.dielectric for material in used_materials(scene))
+
+    def render(self, scene: Scene, integrator: str, depth: int, rays: Rays, folder: Path) -> Rendering:
+        """Render in a process of its own; `depth` is the number of surface vertices before the light.
+
+        The Mitsuba scene, the log and the results stay in `folder`, which must exist. Deterministic scenes are
+        rendered by Mitsuba's own sensor, others along `rays`. Raises RendererError.
+        """
+        job = self._write_job(scene, integrator, depth, folder)
+        np.savez(folder / RAYS_FILE, allow_pickle=False, origins=rays.origins, directions=rays.directions)
+        _run(folder)
+        return _read_rendering(folder, rays.origins.shape[:2], job)
+
+    def _write_job(self, scene: Scene, integrator: str, depth: int, folder: Path) -> Job:
+        stochastic = self.is_stochastic(scene, integrator)
+        sources = exporter.light_sources(scene)
+        # Mitsuba samples one source of light at random: without random numbers it would be the same one everywhere.
+        parts: list[exporter.Source | None] = [None] if stochastic or len(sources) < 2 else list(sources)
+        files = [
+            exporter.export_mitsuba(
+                scene,
+                folder,
+                integrator=integrator,
+                max_depth=depth + 1,
+                only_source=part,
+                file_name=exporter.SCENE_FILE if part is None else f"scene-{part}.xml",
+            ).name
+            for part in parts
+        ]
+        first = exporter.first_primitives_of(scene)
+        job = Job(
+            variant=self.variant,
+            scene_files=tuple(files),
+            first_primitives={exporter.shape_id(index): number for index, number in enumerate(first)},
+            reversed_primitives=tuple(np.flatnonzero(reversed_primitives(scene)).tolist()),
+            batches=BATCHES if stochastic else 0,
+            batch_samples=BATCH_SAMPLES[self.variant] if stochastic else 1,
+        )
+        (folder / JOB_FILE).write_text(job.model_dump_json(indent=2), encoding="utf-8")
+        return job
+
+
+def _run(folder: Path) -> None:
+    """Run the worker; a result of an earlier run must not be taken for its own."""
+    (folder / RESULT_FILE).unlink(missing_ok=True)
+    command = [sys.executable, "-P", "-m", "comparisons.renderers.mitsuba_worker"]
+    run_isolated(command, folder, seconds=TIME_LIMIT, memory_bytes=MEMORY_LIMIT)
+
+
+def _read_rendering(folder: Path, size: tuple[int, ...], job: Job) -> Rendering:
+    """The worker's result, whose shapes must be those of an image of `size` (height, width)."""
+    expected = {name: (*size, *tail) for name, tail in RESULT_SHAPES.items()}
+    if job.batches:
+        expected["batch_means"] = (job.batches, *size, 3)
+    try:
+        with np.load(folder / RESULT_FILE, allow_pickle=False) as archive:
+            result = dict(archive)
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
+        raise RendererError(f"Mitsuba's {RESULT_FILE} cannot be read: {error}") from error
+    for name, shape in expected.items():
+        if name not in result or result[name].shape != shape:
+            raise RendererError(f"Mitsuba's {RESULT_FILE} lacks {name} of shape {shape}")
+    return Rendering(
+        image=result["image"],
+        seconds=float(result["seconds"]),
+        first_hits=FirstHits(**{name: result[name] for name in ("depth", "position", "normal", "primitive")}),
+        samples=max(1, job.batches * job.batch_samples),
+        batch_means=result.get("batch_means"),
+    )
+
+
+@functools.cache
+def _try_variant(variant: str) -> str | None:
+    """The version of Mitsuba if this variant renders a trial scene here; tried once a process.
+
+    Only a trial tells: with an unfit LLVM the variant loads and then aborts its process.
+    """
+    with TemporaryDirectory(prefix="raytruth-") as name:
+        folder = Path(name)
+        renderer = MitsubaRenderer("trial", variant, "")
+        try:
+            renderer.render(TRIAL_SCENE, "path", 0, TRIAL_RAYS, folder)
+        except RendererError:
+            return None
+        with np.load(folder / RESULT_FILE, allow_pickle=False) as archive:
+            return f"mitsuba {archive['version']}"
