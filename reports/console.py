@@ -1,0 +1,116 @@
+"""The matrix on a terminal, and as plain lines anywhere else."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich.cells import cell_len
+from rich.table import Table
+from rich.text import Text
+
+from comparisons.results import Verdict
+from reports.wording import WORDINGS, cells_by_place, columns, number, printable, summary, verdict_counts
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from rich.console import Console
+
+    from comparisons.results import Cell, Results
+
+STYLES = {
+    Verdict.PASS: "green",
+    Verdict.FAIL: "bold red",
+    Verdict.INCOMPARABLE: "dim",
+    Verdict.UNAVAILABLE: "dim",
+    Verdict.ERROR: "bold magenta",
+}
+
+
+def print_matrix(results: Results, console: Console, report: Path | None = None) -> None:
+    """Print the verdict of every cell, the reasons of those that fail or err, the counts, and where the report is.
+
+    On a terminal a table of scenes by renderers/integrators; elsewhere one line a cell, made to be searched.
+    """
+    if console.is_terminal:
+        _print_table(results, console)
+        for cell in results.cells:
+            if cell.verdict in {Verdict.FAIL, Verdict.ERROR}:
+                console.print(_trouble(cell, console))
+    else:
+        for cell in results.cells:
+            _print_line(console, _plain(cell))
+    _print_line(console, summary(results))
+    if report is not None:
+        _print_line(console, f"Report: {report}")
+
+
+def _print_table(results: Results, console: Console) -> None:
+    """With the columns' names where they fit, else with numbers and a key."""
+    names = [f"{renderer}/{integrator}" for renderer, integrator in columns(results)]
+    stacked = [name.replace("/", "\n", 1) for name in names]
+    widest_scene = max((cell_len(scene.name) for scene in results.scenes), default=0)
+    fits = widest_scene + sum(1 + _widest_line(header) for header in stacked) <= console.width  # 1: the gap
+    table = _table(results, console, stacked if fits else [str(i) for i in range(1, len(names) + 1)])
+    console.print(table)
+    if not fits:
+        for i, name in enumerate(names, start=1):
+            _print_line(console, f"{i:>3}  {name}")
+    legend = Text("  ").join(
+        Text(f"{_sign(verdict, console)} {WORDINGS[verdict].word}", style=STYLES[verdict])
+        for verdict, count in verdict_counts(results).items()
+        if count > 0
+    )
+    console.print(legend)
+
+
+def _table(results: Results, console: Console, headers: list[str]) -> Table:
+    table = Table(box=None, padding=(0, 1, 0, 0))
+    table.add_column("Scene", overflow="fold")
+    for header in headers:
+        table.add_column(_text(header, console), justify="center", no_wrap=True, min_width=_widest_line(header))
+    cells = cells_by_place(results)
+    for scene in results.scenes:
+        row = [cells.get((scene.name, *column)) for column in columns(results)]
+        signs = [
+            Text(" ") if cell is None else Text(_sign(cell.verdict, console), style=STYLES[cell.verdict])
+            for cell in row
+        ]
+        table.add_row(_text(scene.name, console), *signs)
+    return table
+
+
+def _trouble(cell: Cell, console: Console) -> Text:
+    """Why a cell failed, in one paragraph."""
+    place = f"{cell.scene} {cell.renderer}/{cell.integrator}"
+    return Text.assemble(
+        (f"{_sign(cell.verdict, console)} {WORDINGS[cell.verdict].word}", STYLES[cell.verdict]),
+        _text(f" {place}: {cell.reason}", console),
+    )
+
+
+def _plain(cell: Cell) -> str:
+    """One line of a cell: verdict, scene, renderer/integrator, largest error, reason."""
+    error = "" if cell.largest_error is None else f" (largest error {number(cell.largest_error)})"
+    return f"{cell.verdict:<12} {cell.scene} {cell.renderer}/{cell.integrator}{error}: {cell.reason}".replace("\n", " ")
+
+
+def _print_line(console: Console, line: str) -> None:
+    """A line that is never wrapped, so that it can be searched and copied."""
+    console.print(_text(line, console), soft_wrap=True)
+
+
+def _text(text: str, console: Console) -> Text:
+    """Untrusted words: no markup, no terminal escapes, only characters that the output can encode."""
+    return Text(printable(text).encode(console.encoding, "replace").decode(console.encoding))
+
+
+def _sign(verdict: Verdict, console: Console) -> str:
+    """The verdict's sign, or its initial letter where the output cannot encode the sign."""
+    sign = WORDINGS[verdict].sign
+    encodable = sign.encode(console.encoding, "ignore") != b""
+    return sign if encodable else WORDINGS[verdict].word[0].upper()
+
+
+def _widest_line(header: str) -> int:
+    return max(cell_len(line) for line in header.splitlines())

@@ -1,0 +1,110 @@
+"""The words, signs and number formats that every report shares."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from comparisons.results import Verdict
+
+if TYPE_CHECKING:
+    from comparisons.results import Cell, Results
+
+
+@dataclass(frozen=True)
+class Wording:
+    """How a verdict is shown: a sign that needs no colour, a word, the word in a count, and what it means."""
+
+    sign: str
+    word: str
+    counted: str
+    meaning: str
+
+
+WORDINGS = {
+    Verdict.PASS: Wording("✓", "pass", "passed", "every pixel lies in its feasible set"),
+    Verdict.FAIL: Wording("✗", "fail", "failed", "at least one pixel cannot come from a right renderer"),
+    Verdict.INCOMPARABLE: Wording(
+        "–", "incomparable", "incomparable", "the scene and the renderer do not define the same image"
+    ),
+    Verdict.UNAVAILABLE: Wording("?", "unavailable", "unavailable", "the renderer is not installed here"),
+    Verdict.ERROR: Wording("!", "error", "ended in an error", "the renderer crashed, hung or wrote no readable image"),
+}
+
+
+def verdict_counts(results: Results) -> dict[Verdict, int]:
+    """How many cells have each verdict, zeros included, in the order of the verdicts."""
+    counts = Counter(cell.verdict for cell in results.cells)
+    return {verdict: counts[verdict] for verdict in Verdict}
+
+
+def headline(results: Results) -> str:
+    """The run's outcome in one sentence."""
+    counts = verdict_counts(results)
+    judged = counts[Verdict.PASS] + counts[Verdict.FAIL] + counts[Verdict.ERROR]
+    troubles = [
+        f"{counts[verdict]} {WORDINGS[verdict].counted}"
+        for verdict in (Verdict.FAIL, Verdict.ERROR)
+        if counts[verdict] > 0
+    ]
+    if troubles:
+        return f"Of {judged} comparable {plural('cell', judged)}, {' and '.join(troubles)}"
+    if judged == 0:
+        return "No cell could be compared"
+    return "The one comparable cell passed" if judged == 1 else f"All {judged} comparable cells passed"
+
+
+def summary(results: Results) -> str:
+    """The counts of all verdicts in one sentence."""
+    counts = ", ".join(f"{count} {WORDINGS[verdict].counted}" for verdict, count in verdict_counts(results).items())
+    total = len(results.cells)
+    return f"{total} {plural('cell', total)}: {counts}."
+
+
+def columns(results: Results) -> list[tuple[str, str]]:
+    """The matrix's columns (renderer, integrator) that have a cell, in the order of the renderers' records."""
+    present = dict.fromkeys((cell.renderer, cell.integrator) for cell in results.cells)
+    ordered: dict[tuple[str, str], None] = {}
+    for renderer in results.renderers:
+        declared = [(renderer.name, integrator) for integrator in renderer.integrators]
+        undeclared = [column for column in present if column[0] == renderer.name]
+        ordered |= dict.fromkeys(column for column in [*declared, *undeclared] if column in present)
+    return list(ordered)
+
+
+def cells_by_place(results: Results) -> dict[tuple[str, str, str], Cell]:
+    """Each cell under (scene, renderer, integrator)."""
+    return {(cell.scene, cell.renderer, cell.integrator): cell for cell in results.cells}
+
+
+def number(value: float | None) -> str:
+    """Three significant digits: plain between 0.001 and 9999, else with an exponent, as in 7.15e-6."""
+    if value is None:
+        return "–"
+    if math.isnan(value):
+        return "not a number"
+    if math.isinf(value):
+        return "infinite" if value > 0 else "−infinite"
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 1e4:
+        return f"{value:.3g}" if abs(value) < 1e3 else f"{value:.0f}"
+    mantissa, exponent = f"{value:.2e}".split("e")
+    return f"{mantissa}e{int(exponent)}"
+
+
+def exact(value: float) -> str:
+    """Nine significant digits: they tell any two float32 numbers apart (Matula 1968), a value from its bound too."""
+    return f"{value:.9g}" if math.isfinite(value) else number(value)
+
+
+def printable(text: str) -> str:
+    """The text with every control character, of a terminal or of the writing direction, replaced by a visible mark."""
+    return "".join(character if character.isprintable() or character in "\n\t" else "�" for character in text)
+
+
+def plural(noun: str, count: int) -> str:
+    """The noun with its s where the count asks for one."""
+    return noun if abs(count) == 1 else f"{noun}s"

@@ -1,0 +1,91 @@
+import io
+from pathlib import Path
+
+import pytest
+from rich.cells import cell_len
+from rich.console import Console
+
+from comparisons.results import Results, Verdict
+from reports.console import print_matrix
+from reports.loading import load_results
+from reports.wording import WORDINGS
+from tests.reports.sample_results import write_sample
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
+    return load_results(write_sample(tmp_path_factory.mktemp("results")))
+
+
+def printed(results: Results, *, terminal: bool, width: int = 80, encoding: str = "utf-8") -> str:
+    raw = io.BytesIO()
+    stream = io.TextIOWrapper(raw, encoding=encoding)
+    console = Console(file=stream, force_terminal=terminal, width=width, color_system=None)
+    print_matrix(results, console, Path("/a/place/report.html"))
+    stream.flush()
+    return raw.getvalue().decode(encoding)
+
+
+def widened(results: Results, copies: int) -> Results:
+    """The same results with each renderer's columns repeated under other names."""
+    renderers = [r.model_copy(update={"name": f"{r.name}-{i}"}) for i in range(copies) for r in results.renderers]
+    cells = [c.model_copy(update={"renderer": f"{c.renderer}-{i}"}) for i in range(copies) for c in results.cells]
+    return results.model_copy(update={"renderers": tuple(renderers), "cells": tuple(cells)})
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_counts_reasons_of_failures_and_the_report_are_printed(results: Results, terminal: bool) -> None:
+    text = printed(results, terminal=terminal)
+    assert "9 cells: 5 passed, 1 failed, 1 incomparable, 1 unavailable, 1 ended in an error." in text
+    assert "lie outside their" in text
+    assert "mitsuba ended with signal 6" in text
+    assert "Report: /a/place/report.html" in text
+
+
+def test_a_terminal_gets_a_sign_for_every_cell_and_a_legend(results: Results) -> None:
+    lines = printed(results, terminal=True).splitlines()
+    table = "\n".join(lines[: next(i for i, line in enumerate(lines) if line.startswith("✓ pass"))])
+    for verdict, wording in WORDINGS.items():
+        assert table.count(wording.sign) == sum(cell.verdict == verdict for cell in results.cells)
+        assert f"{wording.sign} {wording.word}" in "\n".join(lines)
+
+
+@pytest.mark.parametrize("copies", [1, 2, 4])
+def test_no_line_of_the_table_exceeds_80_columns_and_no_name_is_lost(results: Results, copies: int) -> None:
+    wide = widened(results, copies)
+    text = printed(wide, terminal=True)
+    assert max(cell_len(line) for line in text.splitlines() if "Report:" not in line and "cells:" not in line) <= 80
+    assert all(scene.name in text for scene in results.scenes)
+    for cell in wide.cells:
+        assert f"{cell.renderer}/{cell.integrator}" in text or (copies == 1 and cell.renderer in text)
+
+
+def test_elsewhere_each_cell_is_one_line(results: Results) -> None:
+    lines = printed(results, terminal=False, width=30).splitlines()
+    assert len(lines) == len(results.cells) + 2
+    assert [line.split()[0] for line in lines[:-2]] == [cell.verdict for cell in results.cells]
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_an_output_that_knows_only_ascii_gets_words(results: Results, terminal: bool) -> None:
+    assert "closed_form" in printed(results, terminal=terminal, encoding="ascii")
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_untrusted_words_are_neither_markup_nor_terminal_escapes(results: Results, terminal: bool) -> None:
+    hostile = "[red]\x1b]0;title\x07[/nothing]\r"
+    cells = [
+        cell.model_copy(update={"scene": hostile, "reason": hostile, "verdict": Verdict.FAIL})
+        for cell in results.cells[:1]
+    ]
+    scenes = (results.scenes[0].model_copy(update={"name": hostile}),)
+    text = printed(results.model_copy(update={"cells": tuple(cells), "scenes": scenes}), terminal=terminal)
+    assert "\x1b" not in text
+    assert "\x07" not in text
+    assert "\r" not in text
+    assert "[red]" in text
+    assert "[/nothing]" in text
+
+
+def test_a_run_without_cells_is_printed_too(results: Results) -> None:
+    assert "0 cells" in printed(results.model_copy(update={"cells": ()}), terminal=True)

@@ -1,0 +1,216 @@
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from comparisons.images import write_image
+from reports.html import ReportError, write_html_report
+from tests.reports.sample_results import HOSTILE, sample_document, sphere_image, write_sample
+
+Change = Callable[[dict[str, Any]], object]
+
+
+@pytest.fixture
+def directory(tmp_path: Path) -> Path:
+    return write_sample(tmp_path / "results")
+
+
+def changed(directory: Path, change: Change) -> Path:
+    """The results directory with its document changed in place."""
+    path = directory / "results.json"
+    document = json.loads(path.read_text(encoding="utf-8"))
+    change(document)
+    path.write_text(json.dumps(document), encoding="utf-8")
+    return directory
+
+
+def page_of(directory: Path) -> str:
+    return write_html_report(directory).read_text(encoding="utf-8")
+
+
+def hostile(value: Any, keep: frozenset[str]) -> Any:
+    """The document with every string replaced by a hostile one, but for the keys that must stay."""
+    if isinstance(value, dict):
+        return {key: inner if key in keep else hostile(inner, keep) for key, inner in value.items()}
+    if isinstance(value, list):
+        return [hostile(inner, keep) for inner in value]
+    return HOSTILE if isinstance(value, str) else value
+
+
+def test_the_report_is_one_file_in_the_results_directory(directory: Path) -> None:
+    before = set(directory.iterdir())
+    path = write_html_report(directory)
+    assert path == directory / "report.html"
+    assert set(directory.iterdir()) - before == {path}
+
+
+def test_the_report_is_a_function_of_the_results_alone(directory: Path) -> None:
+    assert page_of(directory) == page_of(directory)
+
+
+def test_nothing_on_the_page_is_fetched(directory: Path) -> None:
+    page = page_of(directory)
+    addresses = re.findall(r"""(?:src|href)="([^"]*)"|url\\("([^"]*)"\\)""", page)
+    assert addresses
+    assert all(address.startswith(("#", "data:")) for pair in addresses for address in pair if address)
+    assert "@import" not in page
+
+
+def test_no_string_of_the_results_can_become_markup(directory: Path) -> None:
+    keep = frozenset({"verdict", "images", "log"})
+    log = next(directory.rglob("log.txt"))
+    log.write_text(HOSTILE, encoding="utf-8")
+
+    def poison(document: dict[str, Any]) -> None:
+        document.update(hostile(document, keep))
+        document["machine"] = {HOSTILE: HOSTILE}
+        for i, scene in enumerate(document["scenes"]):
+            scene["name"] += str(i)
+        for i, renderer in enumerate(document["renderers"]):
+            renderer["name"] += str(i)
+            renderer["integrators"] = {HOSTILE: HOSTILE}
+        for i, cell in enumerate(document["cells"]):
+            cell["scene"] += "0"
+            cell["renderer"] += "0"
+            cell["integrator"] += str(i)
+        document["cells"][0]["images"]["truth"] = HOSTILE
+        document["cells"][0]["log"] = HOSTILE
+
+    clean, page = page_of(directory), page_of(changed(directory, poison))
+    assert "&lt;script&gt;alert(" in page
+    assert "{{ 7*7 }}" in page  # not evaluated
+    assert page.count("<script") == clean.count("<script") == 1
+    assert HOSTILE not in page
+    assert '"&{{' not in page  # no quotation mark leaves an attribute
+
+
+def test_every_cell_has_its_detail_and_each_link_its_goal(directory: Path) -> None:
+    page = page_of(directory)
+    ids = re.findall(r'\bid="([^"]*)"', page)
+    goals = re.findall(r'href="#([^"]*)"', page)
+    assert len(ids) == len(set(ids))
+    assert set(goals) <= set(ids)
+    assert sum(goal.startswith("cell/") for goal in goals) == len(sample_document(directory)["cells"])
+
+
+def test_a_scenes_truth_is_stored_once(directory: Path) -> None:
+    page = page_of(directory)
+    assert page.count("<image ") == 1  # the sample's scenes share one truth
+    assert page.count("<use ") > 10
+
+
+def test_a_missing_image_is_told_in_its_cell_and_the_rest_is_built(directory: Path) -> None:
+    page = page_of(directory)
+    assert "The image cells/odd name-&lt;b&gt;%20ü/mitsuba-path/render.exr is missing." in page
+    assert page.count("<article") == len(sample_document(directory)["cells"])
+
+
+def test_a_broken_image_is_told_in_its_cell(directory: Path) -> None:
+    (directory / "cells/lambert-sphere/mitsuba-direct/tolerances.exr").write_bytes(b"not an image")
+    assert "expected an OpenEXR image" in page_of(directory)
+
+
+def test_a_render_of_another_size_is_told_in_its_cell(directory: Path) -> None:
+    write_image(directory / "cells/lambert-sphere/mitsuba-direct/render.exr", sphere_image()[:-1].copy())
+    assert "The render is 64×63 pixels large, the truth 64×64." in page_of(directory)
+
+
+def test_an_image_with_other_channels_is_told_in_its_cell(directory: Path) -> None:
+    def swap(document: dict[str, Any]) -> None:
+        document["cells"][0]["images"]["render"] = document["cells"][0]["images"]["tolerances"]
+
+    assert "has one channel" in page_of(changed(directory, swap))
+
+
+def test_a_log_is_shown_from_its_end_without_terminal_escapes(directory: Path) -> None:
+    page = page_of(directory)
+    assert "Fatal: &lt;b&gt;fminimum&lt;/b&gt;" in page
+    assert "last line" in page
+    assert "line 10\n" not in page
+    assert "\x1b" not in page
+    assert "\x07" not in page
+
+
+@pytest.mark.parametrize("outside", ["../secret.txt", "/etc/hostname", "a\0b"])
+def test_a_results_file_cannot_name_files_outside_its_directory(directory: Path, outside: str) -> None:
+    (directory.parent / "secret.txt").write_text("the secret", encoding="utf-8")
+
+    def point(document: dict[str, Any]) -> None:
+        document["cells"][0]["log"] = outside
+        document["cells"][0]["images"]["truth"] = outside
+
+    page = page_of(changed(directory, point))
+    assert "the secret" not in page
+    assert "lies outside the results directory" in page or "is not the name of a file" in page
+
+
+def test_the_worst_pixel_stands_beside_its_feasible_interval(directory: Path) -> None:
+    page = page_of(directory)
+    assert "Worst pixel: (20, 12), 300 tolerances from the truth" in page
+    assert "not a finite number at 3 pixels" in page
+
+
+def test_values_that_are_not_numbers_are_told_as_such(directory: Path) -> None:
+    def spoil(document: dict[str, Any]) -> None:
+        document["cells"][0]["judgement"]["worst"].update(value=[float("nan")] * 3, tolerances=float("inf"))
+
+    page = page_of(changed(directory, spoil))
+    assert "infinite tolerances" in page
+    assert "not a number" in page
+
+
+def test_optional_parts_may_all_be_missing(directory: Path) -> None:
+    def strip(document: dict[str, Any]) -> None:
+        required = {"scene", "renderer", "integrator", "verdict", "reason", "command"}
+        document["cells"] = [{key: cell[key] for key in required} for cell in document["cells"]]
+
+    assert "<img" not in page_of(changed(directory, strip))
+
+
+def test_a_run_without_scenes_and_cells_has_a_page(directory: Path) -> None:
+    page = page_of(changed(directory, lambda document: document.update(scenes=[], renderers=[], cells=[])))
+    assert "No cell could be compared" in page
+
+
+BROKEN: dict[str, Change] = {
+    "schema_version 7": lambda document: document.update(schema_version=7),
+    "the key schema_version": lambda document: document.pop("schema_version"),
+    "broken at cells.0.verdict": lambda document: document["cells"][0].update(verdict="perhaps"),
+    "broken at machine": lambda document: document.pop("machine"),
+    "list of scenes lacks": lambda document: document["cells"][0].update(scene="elsewhere"),
+    "list of renderers lacks": lambda document: document["cells"][0].update(renderer="nobody"),
+    "2 times": lambda document: document["cells"].append(document["cells"][0]),
+}
+
+
+@pytest.mark.parametrize("expected", BROKEN)
+def test_broken_results_get_one_sentence_and_no_report(directory: Path, expected: str) -> None:
+    with pytest.raises(ReportError, match=re.escape(expected)) as caught:
+        write_html_report(changed(directory, BROKEN[expected]))
+    assert "\n" not in str(caught.value)
+    assert not (directory / "report.html").exists()
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "null", "\udcff", "[" * 100_000])
+def test_a_results_file_that_is_no_json_object_gets_one_sentence(directory: Path, text: str) -> None:
+    (directory / "results.json").write_bytes(text.encode("utf-8", "surrogateescape"))
+    with pytest.raises(ReportError, match=r"results\.json is not"):
+        write_html_report(directory)
+
+
+def test_a_missing_directory_or_results_file_gets_one_sentence(tmp_path: Path) -> None:
+    with pytest.raises(ReportError, match="There is no results directory"):
+        write_html_report(tmp_path / "nowhere")
+    with pytest.raises(ReportError, match=r"holds no results\.json"):
+        write_html_report(tmp_path)
+
+
+def test_a_page_that_cannot_be_written_leaves_nothing_behind(directory: Path) -> None:
+    (directory / "report.html").mkdir()
+    before = set(directory.iterdir())
+    with pytest.raises(ReportError, match="cannot be written"):
+        write_html_report(directory)
+    assert set(directory.iterdir()) == before
