@@ -1,0 +1,239 @@
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import OpenImageIO
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page, expect
+
+from comparisons.results import Verdict
+from reports.html import write_html_report
+from tests.reports.sample_results import ODD_NAME, SIDE, sample_document, write_sample
+
+WCAG_AA = 4.5
+"""Least contrast of text to its background (Web Content Accessibility Guidelines 2.2, 1.4.3)."""
+
+CONTRASTS = """() => {
+  const parse = (colour) => colour.match(/[\\d.]+/g).map(Number);
+  const luminance = (rgb) => {
+    const light = rgb.map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2];
+  };
+  const background = (element) => {
+    for (let e = element; e; e = e.parentElement) {
+      const [r, g, b, alpha = 1] = parse(getComputedStyle(e).backgroundColor);
+      if (alpha === 1) return [r, g, b];
+      if (alpha > 0) throw new Error("a half transparent background: blend it first");
+    }
+    throw new Error("no background");
+  };
+  const found = [];
+  for (const element of document.body.querySelectorAll("*")) {
+    const own = [...element.childNodes].some((n) => n.nodeType === Node.TEXT_NODE && n.textContent.trim());
+    if (!own || !element.checkVisibility() || element.closest("script, .visually-hidden, .skip")) continue;
+    const text = luminance(parse(getComputedStyle(element).color).slice(0, 3));
+    const back = luminance(background(element));
+    const contrast = (Math.max(text, back) + 0.05) / (Math.min(text, back) + 0.05);
+    found.push({ text: element.textContent.trim().slice(0, 40), contrast });
+  }
+  return found;
+}"""
+
+DECODED = """async () => {
+  const decoded = [];
+  for (const stored of document.querySelectorAll("svg.store image")) {
+    const image = new Image();
+    image.src = stored.getAttribute("href");
+    await image.decode();
+    decoded.push([image.naturalWidth, image.naturalHeight]);
+  }
+  return decoded;
+}"""
+
+
+VERDICTS_BY_VISIBILITY = """(all) => {
+  const shown = {};
+  for (const element of all) {
+    const { verdict } = element.dataset;
+    if (verdict in shown && shown[verdict] !== element.checkVisibility()) throw new Error(`some ${verdict} only`);
+    shown[verdict] = element.checkVisibility();
+  }
+  return shown;
+}"""
+
+
+@dataclass
+class Visit:
+    """A page with what happened while it was open."""
+
+    page: Page
+    requests: list[str]
+    complaints: list[str]
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_html_report(write_sample(tmp_path_factory.mktemp("browser") / "results"))
+
+
+@pytest.fixture
+def contexts() -> Iterator[list[BrowserContext]]:
+    opened: list[BrowserContext] = []
+    yield opened
+    for context in opened:
+        context.close()
+
+
+@pytest.fixture
+def visit(browser: Browser, report: Path, contexts: list[BrowserContext]) -> Any:
+    def open_page(width: int = 1600, **options: Any) -> Visit:
+        context = browser.new_context(viewport={"width": width, "height": 900}, offline=True, **options)
+        contexts.append(context)
+        page = context.new_page()
+        visit = Visit(page, [], [])
+        page.on("request", lambda request: visit.requests.append(request.url))
+        page.on("console", lambda message: visit.complaints.append(message.text))
+        page.on("pageerror", lambda error: visit.complaints.append(str(error)))
+        page.goto(report.as_uri())
+        return visit
+
+    return open_page
+
+
+def test_the_page_asks_for_nothing_and_complains_of_nothing(visit: Any, report: Path) -> None:
+    opened = visit()
+    opened.page.locator("summary").click()
+    assert [url for url in opened.requests if not url.startswith("data:")] == [report.as_uri()]
+    assert opened.complaints == []
+
+
+def test_every_image_is_decoded_at_its_size(visit: Any) -> None:
+    page = visit().page
+    sizes = page.locator("img").evaluate_all("all => all.map(i => [i.complete, i.naturalWidth, i.naturalHeight])")
+    assert len(sizes) > 10
+    assert all(size == [True, SIDE, SIDE] for size in sizes)
+    assert page.evaluate(DECODED) == [[SIDE, SIDE]]
+
+
+def test_the_shared_truth_is_drawn_wherever_it_is_shown(visit: Any, tmp_path: Path) -> None:
+    shown = visit().page.locator("svg.picture")
+    assert shown.count() > 6
+    for picture in (shown.first, shown.last):
+        path = tmp_path / "shown.png"
+        picture.screenshot(path=path)
+        pixels = np.asarray(OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.UINT8))[..., :3]
+        assert len(np.unique(pixels.reshape(-1, 3), axis=0)) > 50  # a shaded sphere, not an empty box
+
+
+def test_small_images_are_enlarged_as_squares(visit: Any) -> None:
+    image = visit().page.locator("article img").first
+    assert image.evaluate("i => getComputedStyle(i).imageRendering") == "pixelated"
+    assert image.evaluate("i => i.getBoundingClientRect().width") > 3 * SIDE
+
+
+@pytest.mark.parametrize("javascript", [True, False])
+def test_every_cell_of_the_matrix_leads_to_its_detail(visit: Any, report: Path, javascript: bool) -> None:
+    page = visit(java_script_enabled=javascript).page
+    links = page.locator("table.matrix td a")
+    cells = sample_document(report.parent)["cells"]
+    assert links.count() == len(cells)
+    for link in links.all():
+        link.click()
+        target = page.locator("article:target")
+        expect(target).to_be_in_viewport()
+        assert f"#{target.get_attribute('id')}" == link.get_attribute("href")
+    assert ODD_NAME in page.locator("article:target h4").inner_text()
+
+
+def test_a_filter_hides_its_verdict_in_the_matrix_and_in_the_details(visit: Any) -> None:
+    page = visit().page
+    for verdict in Verdict:
+        page.locator(f".chip.{verdict} input").uncheck()
+        shown = page.locator("[data-verdict]").evaluate_all(VERDICTS_BY_VISIBILITY)
+        assert shown == {v: v != verdict for v in Verdict}
+        expect(page.get_by_role("status")).to_have_text(re.compile(r"Showing \d of 9 cells"))
+        page.locator(f".chip.{verdict} input").check()
+    assert page.locator("[data-verdict]").evaluate_all(VERDICTS_BY_VISIBILITY) == dict.fromkeys(Verdict, True)
+    expect(page.get_by_role("status")).to_have_text("")
+
+
+def test_a_scene_without_shown_cells_is_hidden(visit: Any) -> None:
+    page = visit().page
+    sections = page.locator("section.scene:visible")
+    assert sections.count() == 3
+    page.locator(".chip.pass input").uncheck()
+    assert sections.count() == 2
+
+
+def test_without_javascript_all_is_shown_and_no_dead_control(visit: Any) -> None:
+    page = visit(java_script_enabled=False).page
+    assert page.locator("article:visible").count() == 9
+    assert page.locator("input:visible, button:visible").count() == 0
+    page.locator("summary").click()
+    assert "last line" in page.locator("pre.log").inner_text()
+
+
+@pytest.mark.parametrize("width", [400, 1600])
+def test_the_page_never_scrolls_sideways(visit: Any, width: int) -> None:
+    page = visit(width).page
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    over = "all => all.filter(e => e.getBoundingClientRect().right > innerWidth + 1 && !e.closest('.scroll')).length"
+    assert page.locator("body *:visible").evaluate_all(over) == 0
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_all_text_is_legible_in_both_schemes(visit: Any, scheme: str) -> None:
+    page = visit(color_scheme=scheme).page
+    found = page.evaluate(CONTRASTS)
+    assert len(found) > 100
+    assert [text for text in found if text["contrast"] < WCAG_AA] == []
+    dark = page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(20, 24, 27)"
+    assert dark == (scheme == "dark")
+
+
+def test_the_copy_button_copies_the_command_of_its_cell(visit: Any, report: Path) -> None:
+    page = visit().page
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    failing = page.locator("article.fail")
+    failing.get_by_role("button").click()
+    expect(failing.get_by_role("button")).to_have_text("Copied")
+    command = next(c["command"] for c in sample_document(report.parent)["cells"] if c["verdict"] == "fail")
+    assert page.evaluate("navigator.clipboard.readText()") == command
+
+
+def test_a_refused_clipboard_leaves_the_command_selected(visit: Any) -> None:
+    page = visit().page
+    page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(new Error('refused')); }")
+    failing = page.locator("article.fail")
+    failing.get_by_role("button").click()
+    expect(failing.get_by_role("button")).to_have_text("Selected: press Ctrl+C")
+    assert page.evaluate("String(getSelection())").strip() == failing.locator("code").inner_text()
+
+
+def test_headings_descend_by_one_and_every_picture_has_its_words(visit: Any) -> None:
+    page = visit().page
+    levels = page.locator("h1, h2, h3, h4, h5").evaluate_all("all => all.map(h => Number(h.tagName[1]))")
+    assert levels[0] == 1
+    assert levels.count(1) == 1
+    assert all(deeper <= level + 1 for level, deeper in pairwise(levels))
+    assert page.locator("article img:not([alt]), article img[alt='']").count() == 0
+    assert page.locator("article svg.picture[aria-label='']").count() == 0
+
+
+def test_the_keyboard_reaches_the_matrix_and_follows_its_links(visit: Any) -> None:
+    page = visit().page
+    page.keyboard.press("Tab")
+    expect(page.locator(".skip")).to_be_focused()
+    page.keyboard.press("Enter")
+    link = page.locator("table.matrix td a").first
+    for _ in range(20):
+        page.keyboard.press("Tab")
+        if link.evaluate("e => e === document.activeElement"):
+            break
+    expect(link).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(page.locator("article:target")).to_be_in_viewport()
