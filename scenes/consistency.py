@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 # A picture and its first hits take 76 bytes a pixel (3 float32, 8 float64), so this is 1.3 GB: 4096 x 4096 pixels.
 LARGEST_PIXEL_COUNT = 2**24
 
+# Sine of the angle between `up` and the view; below it float32, whose unit roundoff is 6e-8, leaves the direction of
+# the image's right side barely a digit. Decimal fractions that are meant to be parallel fall below it, too.
+SMALLEST_SINE = 1e-6
+
 # Shewchuk (1997), "Adaptive precision floating-point arithmetic", bound A of the test orient2d: (3 + 16 u) u with
 # u = 2^-53, rounded up. It holds unless a product underflows, which the smallest normal number covers.
 DETERMINANT_ERROR = 4 * 2.0**-53
@@ -82,7 +86,7 @@ def _camera_problems(parts: Parts) -> Iterator[Problem]:
         )
     if camera.position == camera.look_at:
         yield "camera.look_at", "expected a point other than the camera's position, since both give the view direction."
-    elif _are_parallel(_difference(camera.look_at, camera.position), _exact(camera.up)):
+    elif _nearly_parallel(_difference(camera.look_at, camera.position), _exact(camera.up)):
         yield (
             "camera.up",
             "expected a vector that is not parallel to the view from position to look_at, found one that is; "
@@ -200,6 +204,15 @@ def _surely_has_area(first: Vector, second: Vector, third: Vector) -> bool:
 
 def _are_parallel(a: tuple[Fraction, ...], b: tuple[Fraction, ...]) -> bool:
     return a[0] * b[1] == a[1] * b[0] and a[1] * b[2] == a[2] * b[1] and a[2] * b[0] == a[0] * b[2]
+
+
+def _nearly_parallel(a: tuple[Fraction, ...], b: tuple[Fraction, ...]) -> bool:
+    cross = (a[0] * b[1] - a[1] * b[0], a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2])
+    return _square(cross) <= Fraction(SMALLEST_SINE) ** 2 * _square(a) * _square(b)
+
+
+def _square(a: tuple[Fraction, ...]) -> Fraction:
+    return sum((component**2 for component in a), start=Fraction(0))
 
 
 def _exact(vector: Vector) -> tuple[Fraction, ...]:

@@ -189,6 +189,8 @@ def _with_mesh_files(objects: Mapping[int, Shape], folder: Path) -> tuple[dict[i
             except MeshFileError as error:
                 where = f"objects[{index}].file" if shape.file is not None else f"objects[{index}]"
                 problems.append((where, str(error)))
+                # Its triangles are unknown, but its material can be checked.
+                loaded[index] = shape.model_copy(update={"vertices": (), "faces": ()})
     return loaded, problems
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import warnings
 
 import numpy as np
 from plyfile import PlyData, PlyParseError
@@ -17,9 +18,12 @@ def read_ply(content: bytes) -> TriangleLists:
     """Vertices and faces, polygons split into fans. Raises MeshFileError."""
     _check_header(content)
     try:
-        # From memory, so that a false list length cannot reserve more memory than the file has bytes.
-        data = PlyData.read(io.BytesIO(content))
-    except (PlyParseError, ValueError, TypeError, OverflowError) as error:
+        with warnings.catch_warnings():
+            # NumPy warns about lists that end early, which plyfile then takes for empty.
+            warnings.simplefilter("error", UserWarning)
+            # From memory, so that a false list length cannot reserve more memory than the file has bytes.
+            data = PlyData.read(io.BytesIO(content))
+    except (PlyParseError, ValueError, TypeError, OverflowError, UserWarning) as error:
         raise MeshFileError(f"is no valid PLY file: {error}.") from error
     elements = {element.name: element for element in data.elements}
     vertex, face = elements.get("vertex"), elements.get("face")
