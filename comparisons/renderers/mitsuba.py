@@ -23,11 +23,11 @@ from scenes.scene import Scene
 from scenes.shapes import Sphere
 
 # Mitsuba 3.9.1 moves the origin of a secondary ray from p along the geometric normal n, to the side the ray goes to,
-# by (1 + max|p|)·RayEpsilon (include/mitsuba/render/interaction.h lines 186-190, `offset_p`, used by `spawn_ray` and
+# by (1 + max|p|)·RayEpsilon (include/mitsuba/render/interaction.h lines 165-169, `offset_p`, used by `spawn_ray` and
 # `spawn_ray_to`). RayEpsilon = 1500·Epsilon of float32 (include/mitsuba/core/math.h line 18), where Dr.Jit's
-# Epsilon is half an ulp of 1, 2^-24; the same in all variants with Embree.
+# Epsilon is half an ulp of 1, 2^-24 (drjit/array_constants.h line 52); the same in all variants with Embree.
 RAY_EPSILON = 1500 * 2.0**-24
-# A shadow ray ends at (1 - ShadowEpsilon) of the way from its moved origin to the light (interaction.h line 171);
+# A shadow ray ends at (1 - ShadowEpsilon) of the way from its moved origin to the light (interaction.h line 150);
 # ShadowEpsilon = 10·RayEpsilon (math.h line 22).
 SHADOW_EPSILON = 10 * RAY_EPSILON
 
