@@ -58,11 +58,11 @@ class ClosedFormRenderer:
             return "its surface reflects or refracts, and closed_form has local terms only"
         return None
 
-    def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002  (the protocol's signature)
+    def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature
         """Never."""
         return False
 
-    def render(self, scene: Scene, integrator: str, depth: int, rays: Rays, folder: Path) -> Rendering:  # noqa: ARG002
+    def render(self, scene: Scene, integrator: str, depth: int, rays: Rays, folder: Path) -> Rendering:  # noqa: ARG002 - as above
         """Evaluate the formulas in the calling process, since nothing in them can hang; `depth` does not matter.
 
         Raises RendererError for a scene that it refuses.
