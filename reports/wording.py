@@ -24,7 +24,7 @@ class Wording:
 
 
 WORDINGS = {
-    Verdict.PASS: Wording("✓", "pass", "passed", "every pixel lies in its feasible set"),
+    Verdict.PASS: Wording("✓", "pass", "passed", "every judged pixel is what a right renderer may give"),
     Verdict.FAIL: Wording("✗", "fail", "failed", "at least one pixel cannot come from a right renderer"),
     Verdict.INCOMPARABLE: Wording(
         "–", "incomparable", "incomparable", "the scene and the renderer do not define the same image"
