@@ -11,7 +11,7 @@ DECIMALS = 4
 Point = tuple[float, float, float]
 
 
-def trefoil_knot(sections: int = 240, sides: int = 8, tube_radius: float = 0.31) -> str:
+def trefoil_knot(sections: int = 160, sides: int = 12, tube_radius: float = 0.31) -> str:
     """OBJ text of a closed tube around the trefoil knot (the torus knot with p = 2, q = 3), normals outward."""
     lines = ["# A tube around the trefoil knot; written by scenes/library_meshes.py"]
     for section in range(sections):
