@@ -1,0 +1,45 @@
+"""Cameras: the ray through a point of the image (docs/spec.md, CAM).
+
+Image coordinates are in pixels: x to the right, y down, (0, 0) the top left corner, so the centre of pixel (i, j) is
+(i + 1/2, j + 1/2). Pixels are square.
+"""
+
+from __future__ import annotations
+
+from math import pi, tan
+
+from reference_tracer.features import PERSPECTIVE
+from reference_tracer.numbers import Scalar, Vector
+from reference_tracer.vector import add, along, cross, normalize, scale, subtract
+
+Frame = tuple[Vector, Vector, Vector, Vector, Vector]
+"""Camera position; from there to the image's top left corner; one pixel to the right; one pixel down; forward."""
+
+
+def camera_frame(position: Vector, look_at: Vector, up: Vector, extent: Scalar, width: Scalar, height: Scalar) -> Frame:
+    """What all rays of a camera share.
+
+    `extent` is the vertical field of view in degrees (perspective) or the height of the visible rectangle in scene
+    units (orthographic); `width` and `height` count pixels. The image plane of a perspective camera is at distance 1.
+    """
+    forward = normalize(subtract(look_at, position))
+    right = normalize(cross(forward, up))
+    down = cross(forward, right)
+    if PERSPECTIVE:
+        visible_height = 2.0 * tan(extent * pi / 360.0)
+    else:
+        visible_height = extent
+    pixel = visible_height / height
+    corner = add(scale(right, -0.5 * width * pixel), scale(down, -0.5 * height * pixel))
+    if PERSPECTIVE:
+        corner = add(corner, forward)
+    return (position, corner, scale(right, pixel), scale(down, pixel), forward)
+
+
+def primary_ray(frame: Frame, x: Scalar, y: Scalar) -> tuple[Vector, Vector]:
+    """Origin and unit direction of the ray through image point (x, y)."""
+    position, corner, pixel_right, pixel_down, forward = frame
+    on_image = along(along(corner, pixel_right, x), pixel_down, y)
+    if PERSPECTIVE:
+        return position, normalize(on_image)
+    return add(position, on_image), forward

@@ -1,0 +1,224 @@
+"""One source, many arithmetics: the tracer's source as a kernel for one number type and one set of features.
+
+The source files are parsed and joined into one module, in which
+- `if MIRRORS:` and the like are decided, so that the kernel holds what the scene requires and nothing else;
+- a function may be overridden by another of the same signature (a variant, or a fault);
+- numeric literals are named constants, to be made of the kernel's number type;
+- for balls, comparisons and powers are calls, to be decided by three-valued logic.
+
+What comes out is a readable Python file, which is what runs and what the compiler sees.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import textwrap
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from reference_tracer import features as all_features
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+SOURCE_FILES = (
+    "scene_data",
+    "vector",
+    "camera",
+    "sphere",
+    "triangle",
+    "bounding_volume",
+    "traversal",
+    "background",
+    "texture",
+    "reflection",
+    "refraction",
+    "shadow",
+    "illumination",
+    "dielectric",
+    "ray_tree",
+    "image",
+)
+
+ENTRY_POINTS = ("camera_frame", "pixel_radiance", "render_rows", "first_hit_rows")
+
+COMPARISONS: dict[type[ast.cmpop], str] = {
+    ast.Lt: "is_less",
+    ast.Gt: "is_greater",
+    ast.LtE: "is_less_or_equal",
+    ast.GtE: "is_greater_or_equal",
+    ast.Eq: "is_equal",
+    ast.NotEq: "is_different",
+}
+"""The functions that decide comparisons where the number type cannot."""
+
+
+@cache
+def source_module() -> ast.Module:
+    """All functions and whole-number constants of the source files, without docstrings, annotations and imports."""
+    body: list[ast.stmt] = []
+    for name in SOURCE_FILES:
+        path = Path(__file__).with_name(f"{name}.py")
+        for statement in ast.parse(path.read_text(encoding="utf-8"), str(path)).body:
+            if isinstance(statement, ast.FunctionDef):
+                body.append(_bare(statement))
+            elif isinstance(statement, ast.Assign) and isinstance(statement.value, ast.Constant | ast.UnaryOp):
+                body.append(statement)
+    return ast.Module(body=body, type_ignores=[])
+
+
+def kernel_source(
+    features: frozenset[str],
+    overrides: Mapping[str, Callable[..., object]] | None = None,
+    *,
+    decided_comparisons: bool = False,
+    entry_points: tuple[str, ...] = ENTRY_POINTS,
+) -> tuple[str, dict[str, float]]:
+    """The kernel as Python text, and the literals it uses by the names that they have in it.
+
+    An override's source is put in place of the function it overrides, under that function's name; it may use all that
+    the function may. Raises KeyError for an override of a function that does not exist.
+    """
+    functions, constants = _functions_and_constants(source_module())
+    for name, override in (overrides or {}).items():
+        if name not in functions:
+            raise KeyError(f"there is no function {name} in the tracer's source to override")
+        functions[name] = _override(name, override)
+    pruned = {name: _FeaturePruner(features).prune(function) for name, function in functions.items()}
+    reached = _reachable(pruned, entry_points)
+    literals = _LiteralNamer()
+    body: list[ast.stmt] = [constant for name, constant in constants.items() if _mentions(reached, name)]
+    for function in reached:
+        named = literals.visit(function)
+        body.append(_ComparisonCalls().visit(named) if decided_comparisons else named)
+    return ast.unparse(ast.fix_missing_locations(ast.Module(body=body, type_ignores=[]))), literals.names
+
+
+def _bare(function: ast.FunctionDef) -> ast.FunctionDef:
+    """Without docstring and annotations, whose names the kernel does not know."""
+    copy: ast.FunctionDef = ast.parse(ast.unparse(function)).body[0]  # type: ignore[assignment]
+    if ast.get_docstring(copy) is not None:
+        copy.body = copy.body[1:]
+    copy.returns = None
+    for argument in copy.args.args:
+        argument.annotation = None
+    return copy
+
+
+def _override(name: str, override: Callable[..., object]) -> ast.FunctionDef:
+    definition = ast.parse(textwrap.dedent(inspect.getsource(override))).body[0]
+    assert isinstance(definition, ast.FunctionDef), f"the override of {name} must be a plain function"
+    bare = _bare(definition)
+    bare.name = name
+    bare.decorator_list = []
+    return bare
+
+
+def _functions_and_constants(module: ast.Module) -> tuple[dict[str, ast.FunctionDef], dict[str, ast.Assign]]:
+    functions = {node.name: node for node in module.body if isinstance(node, ast.FunctionDef)}
+    constants = {node.targets[0].id: node for node in module.body if isinstance(node, ast.Assign)}  # type: ignore[attr-defined]
+    return functions, constants
+
+
+def _names(node: ast.AST) -> set[str]:
+    return {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}
+
+
+def _mentions(functions: list[ast.FunctionDef], name: str) -> bool:
+    return any(name in _names(function) for function in functions)
+
+
+def _reachable(functions: dict[str, ast.FunctionDef], entry_points: tuple[str, ...]) -> list[ast.FunctionDef]:
+    """The functions that the entry points need, in the order of the source."""
+    wanted: set[str] = set()
+    waiting = list(entry_points)
+    while waiting:
+        name = waiting.pop()
+        if name not in wanted:
+            wanted.add(name)
+            waiting.extend(_names(functions[name]) & functions.keys())
+    return [function for name, function in functions.items() if name in wanted]
+
+
+class _FeaturePruner(ast.NodeTransformer):
+    """Replaces feature names by True and False and drops the branches that cannot be taken."""
+
+    def __init__(self, features: frozenset[str]) -> None:
+        self.values = {name: name in features for name in vars(all_features) if name.isupper()}
+
+    def prune(self, function: ast.FunctionDef) -> ast.FunctionDef:
+        copy = ast.parse(ast.unparse(function)).body[0]
+        pruned: ast.FunctionDef = self.visit(copy)
+        return _without_unreachable_tail(pruned)
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        return ast.Constant(self.values[node.id]) if node.id in self.values else node
+
+    def visit_BoolOp(self, node: ast.BoolOp) -> ast.expr:
+        absorbing = isinstance(node.op, ast.Or)
+        operands = [self.visit(operand) for operand in node.values]
+        if any(isinstance(operand, ast.Constant) and operand.value is absorbing for operand in operands):
+            return ast.Constant(absorbing)
+        open_operands = [operand for operand in operands if not isinstance(operand, ast.Constant)]
+        if not open_operands:
+            return ast.Constant(not absorbing)
+        return open_operands[0] if len(open_operands) == 1 else ast.BoolOp(op=node.op, values=open_operands)
+
+    def visit_If(self, node: ast.If) -> ast.stmt | list[ast.stmt]:
+        test = self.visit(node.test)
+        if isinstance(test, ast.Constant):
+            return _flat(self.visit(statement) for statement in (node.body if test.value else node.orelse))
+        return ast.If(
+            test=test,
+            body=_flat(self.visit(statement) for statement in node.body) or [ast.Pass()],
+            orelse=_flat(self.visit(statement) for statement in node.orelse),
+        )
+
+
+def _flat(statements: object) -> list[ast.stmt]:
+    flat: list[ast.stmt] = []
+    for statement in statements:  # type: ignore[attr-defined]
+        flat.extend(_flat(statement) if isinstance(statement, list) else [statement])
+    return flat
+
+
+def _without_unreachable_tail(function: ast.FunctionDef) -> ast.FunctionDef:
+    """What stands behind a return cannot run."""
+    body = _flat(function.body)
+    for place, statement in enumerate(body):
+        if isinstance(statement, ast.Return):
+            body = body[: place + 1]
+            break
+    function.body = body
+    return function
+
+
+class _LiteralNamer(ast.NodeTransformer):
+    """Gives each literal a name, as in `number_0_5`, and remembers its value."""
+
+    def __init__(self) -> None:
+        self.names: dict[str, float] = {}
+
+    def visit_Constant(self, node: ast.Constant) -> ast.expr:
+        if not isinstance(node.value, float):
+            return node
+        name = "number_" + repr(node.value).replace(".", "_").replace("-", "minus_").replace("+", "")
+        self.names[name] = node.value
+        return ast.Name(id=name, ctx=ast.Load())
+
+
+class _ComparisonCalls(ast.NodeTransformer):
+    """Turns a < b into is_less(a, b), and a ** b into power(a, b)."""
+
+    def visit_Compare(self, node: ast.Compare) -> ast.expr:
+        assert len(node.ops) == 1, f"a chained comparison cannot be decided in one go: {ast.unparse(node)}"
+        operands: list[ast.expr] = [self.visit(node.left), self.visit(node.comparators[0])]
+        return ast.Call(func=ast.Name(id=COMPARISONS[type(node.ops[0])], ctx=ast.Load()), args=operands, keywords=[])
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
+        node.left, node.right = self.visit(node.left), self.visit(node.right)
+        if isinstance(node.op, ast.Pow):
+            return ast.Call(func=ast.Name(id="power", ctx=ast.Load()), args=[node.left, node.right], keywords=[])
+        return node
