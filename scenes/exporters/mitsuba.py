@@ -12,6 +12,7 @@ from scenes.exporters.mitsuba_files import checkerboard_coordinates, write_gradi
 from scenes.exporters.mitsuba_limits import refuses, reversed_primitives
 from scenes.exporters.mitsuba_materials import add_bsdf, add_texture, checkerboard_of
 from scenes.lights import ConstantBackground, GradientBackground, PointLight
+from scenes.requirements import used_materials
 from scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from scenes.camera import Camera
     from scenes.lights import Light
     from scenes.scene import Scene
 
@@ -32,6 +32,8 @@ NEAR_CLIP = 1e-9
 FAR_CLIP = 1e13
 # Russian roulette would end paths at random from this depth on; no depth reaches it.
 NO_ROULETTE = 1_000_000
+# For a person who opens a scene with glass: noise of a few percent, in a second or two.
+PICTURE_SAMPLES = 256
 
 Source = int | Literal["emission"]
 
@@ -89,7 +91,7 @@ def export_mitsuba(
     root = ElementTree.Element("scene", version="3.0.0")
     add_comment(root, f"{scene.name or 'scene'}: {scene.purpose}")
     _add_integrator(root, integrator, max_depth)
-    _add_camera(root, scene.camera)
+    _add_camera(root, scene)
     for index, light in enumerate(scene.lights):
         if only_source in (None, index):
             _add_light(root, light)
@@ -115,7 +117,8 @@ def _add_integrator(root: Element, name: str, max_depth: int) -> None:
         add_numbers(integrator, "integer", max_depth=max_depth, rr_depth=NO_ROULETTE)
 
 
-def _add_camera(root: Element, camera: Camera) -> None:
+def _add_camera(root: Element, scene: Scene) -> None:
+    camera = scene.camera
     sensor = ElementTree.SubElement(root, "sensor", type=camera.projection)
     add_numbers(sensor, "float", near_clip=NEAR_CLIP, far_clip=FAR_CLIP)
     to_world = ElementTree.SubElement(sensor, "transform", name="to_world")
@@ -133,10 +136,19 @@ def _add_camera(root: Element, camera: Camera) -> None:
     add_text(film, "pixel_format", "rgb")
     add_text(film, "component_format", "float32")
     ElementTree.SubElement(film, "rfilter", type="box")
-    add_comment(sensor, "one ray through the centre of each pixel")
-    sampler = ElementTree.SubElement(sensor, "sampler", type="stratified")
-    add_numbers(sampler, "integer", sample_count=1)
-    ElementTree.SubElement(sampler, "boolean", name="jitter", value="false")
+    _add_sampler(sensor, scene)
+
+
+def _add_sampler(sensor: Element, scene: Scene) -> None:
+    if any(material.dielectric for material in used_materials(scene)):
+        add_comment(sensor, "glass reflects or refracts each ray at random: a picture takes many, all over the pixel")
+        sampler = ElementTree.SubElement(sensor, "sampler", type="independent")
+        add_numbers(sampler, "integer", sample_count=PICTURE_SAMPLES)
+    else:
+        add_comment(sensor, "one ray through the centre of each pixel")
+        sampler = ElementTree.SubElement(sensor, "sampler", type="stratified")
+        add_numbers(sampler, "integer", sample_count=1)
+        ElementTree.SubElement(sampler, "boolean", name="jitter", value="false")
 
 
 def _add_light(root: Element, light: Light) -> None:

@@ -209,6 +209,22 @@ def test_the_vertical_field_of_view_and_the_width_of_the_view_are_stated(tmp_pat
     assert orthographic.find("sensor/transform/scale[@x='2.0'][@y='2.0']") is not None
 
 
+def test_one_ray_goes_through_each_pixel_centre_unless_glass_makes_paths_random(tmp_path: Path) -> None:
+    sampler = export(build(), tmp_path).find("sensor/sampler[@type='stratified']")
+    assert sampler is not None
+    assert sampler.find("integer[@name='sample_count'][@value='1']") is not None
+    assert sampler.find("boolean[@name='jitter'][@value='false']") is not None
+    assert export(build(materials={"m": GLASS}), tmp_path).find("sensor/sampler[@type='independent']") is not None
+
+
+def test_both_indices_of_an_interface_are_stated(tmp_path: Path) -> None:
+    bubble = {"dielectric": {"index_of_refraction": 1.0, "outside": "water"}}
+    water = {"dielectric": {"index_of_refraction": 1.33}}
+    bsdf = export(build(materials={"m": bubble, "water": water}), tmp_path).find("bsdf")
+    assert bsdf is not None
+    assert {number.get("name"): number.get("value") for number in bsdf} == {"int_ior": "1.0", "ext_ior": "1.33"}
+
+
 def test_the_interpolated_gradient_is_the_gradient_within_float32(tmp_path: Path) -> None:
     bottom, top = np.array([0.3, 0.0, 0.1]), np.array([0.1, 0.2, 0.9])
     export(build(background={"bottom": tuple(bottom), "top": tuple(top)}), tmp_path)
