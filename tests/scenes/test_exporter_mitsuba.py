@@ -7,7 +7,6 @@ from xml.etree import ElementTree
 
 import numpy as np
 import OpenImageIO
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from plyfile import PlyData
@@ -21,125 +20,17 @@ from scenes.exporters.mitsuba import (
 )
 from scenes.exporters.mitsuba_elements import add_comment
 from scenes.exporters.mitsuba_files import GRADIENT_ROWS, checkerboard_coordinates
-from scenes.exporters.mitsuba_limits import refuses, reversed_primitives
 from scenes.materials import Checkerboard
-from scenes.scene import Scene
+from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, LAMP, POINT, RED, SUN, build
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-RED = {"diffuse": {"reflectance": (0.8, 0.1, 0.1)}}
-MIRROR = {"mirror": {"reflectance": (0.9, 0.9, 0.9)}}
-GLASS = {"dielectric": {"index_of_refraction": 1.5}}
-LAMP = {"emission": {"radiance": (2.0, 3.0, 4.0)}}
-BOARD = {"checkerboard": {"even": (2.0, 0.1, 0.1), "odd": (0.1, 0.1, 0.2), "size": 0.7, "offset": (0.2, 0.1)}}
-POINT = {"kind": "point", "position": (1.0, 2.0, 3.0), "intensity": (9.0, 8.0, 7.0), "falloff": "inverse_square"}
-SUN = {"kind": "directional", "direction": (0.0, -1.0, 0.0), "irradiance": (1.0, 1.0, 1.0)}
-BALL = {"shape": "sphere", "center": (0.1, 0.2, 0.3), "radius": 1.1, "material": "m"}
-# Seen from (0, 1, 5), which is on the side of its normal, +y.
-FLOOR = {"shape": "triangle", "vertices": ((-5.0, -1.0, -5.0), (0.0, -1.0, 5.0), (5.0, -1.0, -5.0)), "material": "m"}
-
-
-def build(**changes: Any) -> Scene:
-    base: dict[str, Any] = {
-        "purpose": "A test.",
-        "convention": "radiometric",
-        "camera": {
-            "projection": "perspective",
-            "position": (0.0, 1.0, 5.0),
-            "look_at": (0.0, 0.0, 0.0),
-            "width": 32,
-            "height": 24,
-            "vertical_field_of_view": 40.0,
-        },
-        "materials": {"m": RED},
-        "objects": [BALL],
-    }
-    return Scene.model_validate(base | changes)
+    from scenes.scene import Scene
 
 
 def export(scene: Scene, folder: Path, **options: Any) -> ElementTree.Element:
     return ElementTree.parse(export_mitsuba(scene, folder, max_depth=3, **options)).getroot()
-
-
-@pytest.mark.parametrize(
-    ("changes", "word"),
-    [
-        (
-            {"ambient_light": (1.0, 1.0, 1.0), "materials": {"m": {"ambient": {"reflectance": (1.0, 1.0, 1.0)}}}},
-            "ambient",
-        ),
-        (
-            {"materials": {"m": {"specular": {"reflectance": (1.0, 1.0, 1.0), "exponent": 9.0, "model": "phong"}}}},
-            "specular",
-        ),
-        ({"lights": [POINT | {"falloff": "none"}]}, "inverse square"),
-        ({"lights": [POINT | {"falloff": {"constant": 1.0, "linear": 0.0, "quadratic": 1.0}}]}, "inverse square"),
-        ({"convention": "whitted"}, "π"),
-        ({"convention": "whitted", "materials": {"m": GLASS}}, "refraction"),
-        (
-            {
-                "materials": {
-                    "m": {
-                        "dielectric": {
-                            "index_of_refraction": 1.5,
-                            "reflectance": (0.1, 0.1, 0.1),
-                            "transmittance": (0.9, 0.9, 0.9),
-                        }
-                    }
-                }
-            },
-            "Fresnel",
-        ),
-        (
-            {"materials": {"m": {"dielectric": {"index_of_refraction": 1.5, "absorption": (0.0, 0.1, 0.0)}}}},
-            "absorbing",
-        ),
-        ({"materials": {"m": RED | MIRROR}}, "blends"),
-        ({"materials": {"m": RED | GLASS}}, "dielectric"),
-        ({"materials": {"m": {"mirror": {"reflectance": (1.0, 1.01, 1.0)}}}}, "at most 1"),
-        ({"materials": {"m": {"diffuse": {"reflectance": BOARD}}}, "objects": [FLOOR]}, "at most 1"),
-        ({"materials": {"m": {"emission": {"radiance": BOARD}}}}, "sphere"),
-    ],
-)
-def test_what_mitsuba_cannot_express_is_refused_with_its_reason(
-    changes: dict[str, Any], word: str, tmp_path: Path
-) -> None:
-    scene = build(**changes)
-    reason = refuses(scene)
-    assert reason is not None
-    assert word in reason
-    with pytest.raises(ValueError, match=r"cannot be written for Mitsuba, because"):
-        export_mitsuba(scene, tmp_path, max_depth=2)
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"lights": [POINT, SUN]},
-        {"convention": "whitted", "materials": {"m": MIRROR}},
-        {"materials": {"m": GLASS}},
-        {"materials": {"m": RED | LAMP}},
-        {"materials": {"m": {"emission": {"radiance": BOARD}}}, "objects": [FLOOR]},
-        {"materials": {"m": RED, "unused": RED | MIRROR}},
-        {"materials": {"m": {"ambient": {"reflectance": (1.0, 1.0, 1.0)}} | RED}},
-    ],
-)
-def test_what_mitsuba_can_express_is_not_refused(changes: dict[str, Any]) -> None:
-    assert refuses(build(**changes)) is None
-
-
-def test_an_emissive_triangle_seen_from_both_sides_is_refused_and_from_behind_is_turned_around() -> None:
-    materials = {"m": LAMP, "mirror": MIRROR}
-    mirror_below = BALL | {"center": (0.0, -3.0, 0.0), "material": "mirror"}
-    mirror_above = BALL | {"center": (0.0, 3.0, 0.0), "material": "mirror"}
-    seen_from_behind = FLOOR | {"vertices": FLOOR["vertices"][::-1]}
-    assert refuses(build(materials=materials, objects=[FLOOR, mirror_above])) is None
-    assert "both sides" in (refuses(build(materials=materials, objects=[FLOOR, mirror_below])) or "")
-    assert reversed_primitives(build(materials=materials, objects=[FLOOR, mirror_above])).tolist() == [False, False]
-    turned = reversed_primitives(build(materials=materials, objects=[seen_from_behind, mirror_above]))
-    assert turned.tolist() == [False, True]
 
 
 def test_an_emissive_sphere_shines_to_the_side_of_the_camera(tmp_path: Path) -> None:
