@@ -17,7 +17,7 @@ from scenes.materials import Material
 from scenes.mesh_files import with_triangles
 from scenes.scene import Scene
 from scenes.shapes import Mesh, Shape
-from scenes.triangle_lists import MeshFileError
+from scenes.triangle_lists import LARGEST_FACE_COUNT, MeshFileError
 from scenes.validation import problems_of
 from scenes.values import Color
 from scenes.wording import place, quoted
@@ -27,10 +27,13 @@ if TYPE_CHECKING:
 
     from scenes.consistency import Problem
 
-# An inline mesh of 100,000 faces fits; parsed, the worst text of this size takes about half a gigabyte.
-LARGEST_SCENE_FILE = 8 * 2**20
+# An inline mesh of 10,000 faces fits. Every broken item costs pydantic some 2 kB: measured, the worst text of this size
+# (all empty objects) is refused within 12 s and 0.9 GB, and eight times as much text takes eight times as much.
+LARGEST_SCENE_FILE = 2**20
 # More problems than a person reads at once; a broken mesh can have hundreds of thousands.
 MOST_PROBLEMS_TOLD = 100
+# Reading the largest mesh file takes seconds, and a small scene file could name it thousands of times.
+MOST_MESH_FILES = 100
 # Whole numbers with more digits are absurd, and Python's time to read them grows with the square of their length.
 LONGEST_WHOLE_NUMBER = 20
 
@@ -179,18 +182,25 @@ def _items(value: Any) -> dict[int, Any]:
 
 
 def _with_mesh_files(objects: Mapping[int, Shape], folder: Path) -> tuple[dict[int, Shape], list[Problem]]:
-    loaded: dict[int, Shape] = {}
+    meshes = {index: shape for index, shape in objects.items() if isinstance(shape, Mesh)}
+    if sum(mesh.file is not None for mesh in meshes.values()) > MOST_MESH_FILES:
+        return dict(objects), [("objects", f"expected at most {MOST_MESH_FILES} mesh files, found more; join some.")]
+    loaded = dict(objects)
     problems: list[Problem] = []
-    for index, shape in objects.items():
-        loaded[index] = shape
-        if isinstance(shape, Mesh):
-            try:
-                loaded[index] = with_triangles(shape, folder)
-            except MeshFileError as error:
-                where = f"objects[{index}].file" if shape.file is not None else f"objects[{index}]"
-                problems.append((where, str(error)))
-                # Its triangles are unknown, but its material can be checked.
-                loaded[index] = shape.model_copy(update={"vertices": (), "faces": ()})
+    faces = 0
+    for index, mesh in meshes.items():
+        try:
+            with_file = with_triangles(mesh, folder)
+        except MeshFileError as error:
+            where = f"objects[{index}].file" if mesh.file is not None else f"objects[{index}]"
+            problems.append((where, str(error)))
+            # Its triangles are unknown, but its material can be checked.
+            with_file = mesh.model_copy(update={"vertices": (), "faces": ()})
+        loaded[index] = with_file
+        faces += len(with_file.faces)
+        if faces > LARGEST_FACE_COUNT:
+            problems.append(("objects", f"expected at most {LARGEST_FACE_COUNT} triangles in all meshes, found more."))
+            break
     return loaded, problems
 
 

@@ -200,3 +200,16 @@ def test_a_mesh_file_is_looked_for_beside_the_scene_wherever_the_program_runs(
     mesh = load_scene(path).objects[3]
     assert isinstance(mesh, Mesh)
     assert mesh.vertices[1] == (1.0, 0.0, 0.0)
+
+
+def test_too_many_mesh_files_are_refused_before_any_is_read(tmp_path: Path) -> None:
+    mesh = {"shape": "mesh", "file": "missing.obj", "material": "red"}
+    found = problems(tmp_path, changed(("objects",), [mesh] * (loading.MOST_MESH_FILES + 1)))
+    assert found == ["objects: expected at most 100 mesh files, found more; join some."]
+
+
+def test_too_many_triangles_in_all_meshes_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(loading, "LARGEST_FACE_COUNT", 8)
+    assert problems(tmp_path, valid_scene()) == []
+    monkeypatch.setattr(loading, "LARGEST_FACE_COUNT", 7)
+    assert problems(tmp_path, valid_scene()) == ["objects: expected at most 7 triangles in all meshes, found more."]
