@@ -13,6 +13,7 @@ from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from flint import arb
 
 from reference_tracer.balls import Decisions, TooManyOutcomesError, ball_arithmetic, every_outcome
 from reference_tracer.rendering import PreparedScene, prepare
@@ -126,7 +127,7 @@ def _offsets(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
 
         replaced["departure"] = departure
     if error_model.shadow_shortening > 0.0:
-        replaced["shadow_ray_end"] = lambda: 1 - error_model.shadow_shortening
+        replaced["shadow_ray_end"] = lambda: arb(1 - error_model.shadow_shortening)
     return replaced
 
 

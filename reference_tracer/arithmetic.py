@@ -13,13 +13,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numba
 import numpy as np
 from platformdirs import user_cache_path
 
-from reference_tracer.instantiation import ENTRY_POINTS, kernel_source
+from reference_tracer.instantiation import COMPILED_ENTRY_POINTS, ENTRY_POINTS, kernel_source
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Collection, Mapping
 
     from numpy.typing import NDArray
 
@@ -75,13 +76,15 @@ class Namespace:
 
 def make_kernel(
     arithmetic: Arithmetic,
-    features: frozenset[str],
+    features: Collection[str],
     overrides: Mapping[str, Callable[..., object]] | None = None,
-    entry_points: tuple[str, ...] = ENTRY_POINTS,
 ) -> Kernel:
     """The tracer for one number type, with these features and no others, and with some functions overridden."""
     source, literals = kernel_source(
-        features, overrides, decided_comparisons=arithmetic.decided_comparisons, entry_points=entry_points
+        features,
+        overrides,
+        entry_points=COMPILED_ENTRY_POINTS if arithmetic.compiled else ENTRY_POINTS,
+        decided_comparisons=arithmetic.decided_comparisons,
     )
     if arithmetic.compiled:
         return _compiled_module(_compiled_text(arithmetic, source, literals))
@@ -116,7 +119,7 @@ def _compiled_text(arithmetic: Arithmetic, source: str, literals: dict[str, floa
 
 
 def _decorated(definition: re.Match[str]) -> str:
-    decorator = "entry_point" if definition[1] in ENTRY_POINTS else "compiled"
+    decorator = "entry_point" if definition[1] in COMPILED_ENTRY_POINTS else "compiled"
     return f"\n@{decorator}\n{definition[0]}"
 
 
@@ -131,8 +134,6 @@ def _compiled_module(text: str) -> Kernel:
     The compiler's own cache does not notice a change in a function of another file; with all of a kernel in one file
     whose name depends on all of its text, it need not.
     """
-    import numba
-
     digest = hashlib.sha256(f"{numba.__version__}\n{np.__version__}\n{text}".encode()).hexdigest()[:16]
     path = cache_folder() / "kernels" / f"kernel_{digest}.py"
     if not path.exists():

@@ -147,7 +147,7 @@ def _sqrt(x: Any) -> Any:
 
 
 def _power(base: Any, exponent: Any) -> Any:
-    """base ** exponent for the part of the base that is not negative; exponents are positive."""
+    """Base ** exponent for the part of the base that is not negative; exponents are positive."""
     if base > 0:
         return base**exponent
     upper = base.upper()

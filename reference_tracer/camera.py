@@ -10,30 +10,39 @@ from math import pi, tan
 
 from reference_tracer.features import PERSPECTIVE
 from reference_tracer.numbers import Scalar, Vector
+from reference_tracer.scene_data import (
+    CAMERA_EXTENT,
+    CAMERA_LOOK_AT,
+    CAMERA_POSITION,
+    CAMERA_SIZE,
+    CAMERA_UP,
+    SceneData,
+    integer_of,
+    number_of,
+    vector_of,
+)
 from reference_tracer.vector import add, along, cross, normalize, scale, subtract
 
 Frame = tuple[Vector, Vector, Vector, Vector, Vector]
 """Camera position; from there to the image's top left corner; one pixel to the right; one pixel down; forward."""
 
 
-def camera_frame(position: Vector, look_at: Vector, up: Vector, extent: Scalar, width: Scalar, height: Scalar) -> Frame:
-    """What all rays of a camera share.
-
-    `extent` is the vertical field of view in degrees (perspective) or the height of the visible rectangle in scene
-    units (orthographic); `width` and `height` count pixels. The image plane of a perspective camera is at distance 1.
-    """
-    forward = normalize(subtract(look_at, position))
-    right = normalize(cross(forward, up))
+def camera_frame(scene: SceneData) -> Frame:
+    """What all rays of the scene's camera share. The image plane of a perspective camera is at distance 1."""
+    position = vector_of(scene, CAMERA_POSITION, 0)
+    forward = normalize(subtract(vector_of(scene, CAMERA_LOOK_AT, 0), position))
+    right = normalize(cross(forward, vector_of(scene, CAMERA_UP, 0)))
     down = cross(forward, right)
+    width = float(integer_of(scene, CAMERA_SIZE, 0))
+    height = float(integer_of(scene, CAMERA_SIZE, 1))
+    visible_height = number_of(scene, CAMERA_EXTENT, 0)
     if PERSPECTIVE:
-        visible_height = 2.0 * tan(extent * pi / 360.0)
-    else:
-        visible_height = extent
+        visible_height = 2.0 * tan(visible_height * pi / 360.0)
     pixel = visible_height / height
     corner = add(scale(right, -0.5 * width * pixel), scale(down, -0.5 * height * pixel))
     if PERSPECTIVE:
         corner = add(corner, forward)
-    return (position, corner, scale(right, pixel), scale(down, pixel), forward)
+    return position, corner, scale(right, pixel), scale(down, pixel), forward
 
 
 def primary_ray(frame: Frame, x: Scalar, y: Scalar) -> tuple[Vector, Vector]:

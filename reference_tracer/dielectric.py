@@ -1,4 +1,4 @@
-"""What a dielectric surface does to a ray: index ratio, medium beyond, and how the light is split (docs/spec.md, REFR)."""
+"""What a dielectric surface does to a ray: index ratio, medium beyond, how light is split (docs/spec.md, REFR)."""
 
 from __future__ import annotations
 

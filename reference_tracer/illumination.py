@@ -158,11 +158,13 @@ def specular(scene: SceneData, material: int, normal: Vector, direction: Vector,
 def phong(normal: Vector, direction: Vector, toward_light: Vector, exponent: Scalar) -> Scalar:
     """(r·v)^n: r is where a mirror would send the light, v the direction to the viewer."""
     cosine = dot(mirror_direction(direction, normal), toward_light)
-    return max(cosine, 0.0) ** exponent
+    highlight: Scalar = max(cosine, 0.0) ** exponent
+    return highlight
 
 
 def blinn(normal: Vector, direction: Vector, toward_light: Vector, exponent: Scalar) -> Scalar:
     """(n·h)^n: h halves the angle between the directions to the light and to the viewer."""
     halfway = subtract(toward_light, direction)
     cosine = dot(normal, normalize(halfway))
-    return max(cosine, 0.0) ** exponent
+    highlight: Scalar = max(cosine, 0.0) ** exponent
+    return highlight

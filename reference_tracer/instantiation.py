@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from reference_tracer import features as all_features
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Collection, Mapping
 
 SOURCE_FILES = (
     "scene_data",
@@ -42,7 +42,9 @@ SOURCE_FILES = (
     "image",
 )
 
-ENTRY_POINTS = ("camera_frame", "pixel_radiance", "render_rows", "first_hit_rows")
+COMPILED_ENTRY_POINTS = ("render_rows", "first_hit_rows")
+ENTRY_POINTS = (*COMPILED_ENTRY_POINTS, "camera_frame", "primary_ray", "radiance_at", "trace_ray")
+"""What Python calls: compiled kernels offer less, since every entry point costs time to compile."""
 
 COMPARISONS: dict[type[ast.cmpop], str] = {
     ast.Lt: "is_less",
@@ -70,11 +72,11 @@ def source_module() -> ast.Module:
 
 
 def kernel_source(
-    features: frozenset[str],
+    features: Collection[str],
     overrides: Mapping[str, Callable[..., object]] | None = None,
     *,
-    decided_comparisons: bool = False,
     entry_points: tuple[str, ...] = ENTRY_POINTS,
+    decided_comparisons: bool = False,
 ) -> tuple[str, dict[str, float]]:
     """The kernel as Python text, and the literals it uses by the names that they have in it.
 
@@ -145,7 +147,7 @@ def _reachable(functions: dict[str, ast.FunctionDef], entry_points: tuple[str, .
 class _FeaturePruner(ast.NodeTransformer):
     """Replaces feature names by True and False and drops the branches that cannot be taken."""
 
-    def __init__(self, features: frozenset[str]) -> None:
+    def __init__(self, features: Collection[str]) -> None:
         self.values = {name: name in features for name in vars(all_features) if name.isupper()}
 
     def prune(self, function: ast.FunctionDef) -> ast.FunctionDef:

@@ -29,7 +29,7 @@ from reference_tracer.traversal import NOTHING, material_of, nearest_hit, surfac
 from reference_tracer.vector import add, along, dot, multiply, negate
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Vector
+    from reference_tracer.numbers import Scalar, Vector
     from reference_tracer.scene_data import SceneData
 
     Ray = tuple[Vector, Vector, Vector, int, int, int]
@@ -40,42 +40,34 @@ if TYPE_CHECKING:
 def radiance(scene: SceneData, origin: Vector, direction: Vector, medium: int, depth: int) -> Vector:
     """What arrives at the origin against a unit direction, in linear RGB."""
     if MIRRORS or DIELECTRICS:
-        return ray_tree_sum(scene, (origin, direction, (1.0, 1.0, 1.0), NOTHING, medium, depth))
+        total = (0.0, 0.0, 0.0)
+        waiting = [(origin, direction, (1.0, 1.0, 1.0), NOTHING, medium, depth)]
+        while len(waiting) > 0:
+            total = add(total, trace_ray(scene, waiting.pop(), waiting))
+        return total
     distance, primitive = nearest_hit(scene, origin, direction, NOTHING)
     if primitive == NOTHING:
         return background_radiance(scene, direction)
-    point = along(origin, direction, distance)
-    outward = surface_normal(scene, primitive, point)
-    normal = outward if dot(direction, outward) < 0.0 else negate(outward)
+    point, normal, _ = surface_at(scene, origin, direction, distance, primitive)
     return local_illumination(scene, primitive, material_of(scene, primitive), point, normal, direction)
 
 
-def ray_tree_sum(scene: SceneData, camera_ray: Ray) -> Vector:
-    """Weight times local illumination, summed over the whole tree."""
-    total = (0.0, 0.0, 0.0)
-    waiting = [camera_ray]
-    while len(waiting) > 0:
-        origin, direction, weight, left, medium, depth = waiting.pop()
-        distance, primitive = nearest_hit(scene, origin, direction, left)
-        if primitive == NOTHING:
-            total = add(total, multiply(weight, background_radiance(scene, direction)))
-            continue
-        if ABSORPTION:
-            if medium >= 0:
-                weight = multiply(weight, medium_transmittance(vector_of(scene, MATERIAL_ABSORPTION, medium), distance))
-        point = along(origin, direction, distance)
-        outward = surface_normal(scene, primitive, point)
-        material = material_of(scene, primitive)
-        entering = dot(direction, outward) < 0.0
-        normal = outward if entering else negate(outward)
-        local = local_illumination(scene, primitive, material, point, normal, direction)
-        total = add(total, multiply(weight, local))
-        if depth == 0:
-            continue
+def trace_ray(scene: SceneData, ray: Ray, waiting: list[Ray]) -> Vector:
+    """Weight times local illumination where the ray ends; the rays that go on from there are put to those waiting."""
+    origin, direction, weight, left, medium, depth = ray
+    distance, primitive = nearest_hit(scene, origin, direction, left)
+    if primitive == NOTHING:
+        return multiply(weight, background_radiance(scene, direction))
+    if ABSORPTION:
+        if medium >= 0:
+            weight = multiply(weight, medium_transmittance(vector_of(scene, MATERIAL_ABSORPTION, medium), distance))
+    point, normal, entering = surface_at(scene, origin, direction, distance, primitive)
+    material = material_of(scene, primitive)
+    if depth > 0:
         if MIRRORS:
             if integer_of(scene, MATERIAL_IS_MIRROR, material):
-                reflectance = multiply(weight, vector_of(scene, MATERIAL_MIRROR, material))
-                waiting.append(reflected_ray(primitive, point, normal, direction, reflectance, medium, depth))
+                mirrored = multiply(weight, vector_of(scene, MATERIAL_MIRROR, material))
+                waiting.append(reflected_ray(primitive, point, normal, direction, mirrored, medium, depth))
         if DIELECTRICS:
             if integer_of(scene, MATERIAL_IS_DIELECTRIC, material):
                 cosine = -dot(direction, normal)
@@ -93,7 +85,18 @@ def ray_tree_sum(scene: SceneData, camera_ray: Ray) -> Vector:
                     beyond = medium_beyond(scene, material, entering)
                     waiting.append(reflected_ray(primitive, point, normal, direction, reflectance, medium, depth))
                     waiting.append(transmitted_ray(primitive, point, normal, refracted, transmittance, beyond, depth))
-    return total
+    return multiply(weight, local_illumination(scene, primitive, material, point, normal, direction))
+
+
+def surface_at(
+    scene: SceneData, origin: Vector, direction: Vector, distance: Scalar, primitive: int
+) -> tuple[Vector, Vector, bool]:
+    """Where the ray meets the primitive: the point, the unit normal turned to the ray, whether the ray is entering."""
+    point = along(origin, direction, distance)
+    outward = surface_normal(scene, primitive, point)
+    entering = dot(direction, outward) < 0.0
+    normal = outward if entering else negate(outward)
+    return point, normal, entering
 
 
 def reflected_ray(

@@ -11,5 +11,5 @@ if TYPE_CHECKING:
 
 
 def mirror_direction(direction: Vector, normal: Vector) -> Vector:
-    """d - 2(d·n)n for a unit normal n; the length of d is kept (Whitted 1980, section 2)."""
+    """The mirrored direction d - 2(d·n)n for a unit normal n; the length of d is kept (Whitted 1980, section 2)."""
     return along(direction, normal, -2.0 * dot(direction, normal))

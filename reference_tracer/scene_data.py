@@ -58,7 +58,14 @@ SUN_DIRECTION = 43
 SUN_IRRADIANCE = 44
 AMBIENT_LIGHT = 45
 BACKGROUND_COLOR = 46
-NUMBER_OF_TABLES = 47
+CAMERA_POSITION = 47
+CAMERA_LOOK_AT = 48
+CAMERA_UP = 49
+CAMERA_EXTENT = 50  # vertical field of view in degrees, or the height of the visible rectangle
+CAMERA_SIZE = 51  # integers: width and height in pixels
+CAMERA_MEDIUM = 52  # integers: the material the camera is in, or -1
+MAX_DEPTH = 53  # integers
+NUMBER_OF_TABLES = 54
 
 
 class SceneData(NamedTuple):

@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from reference_tracer.scene_data import SceneData
 
 
-def departure(primitive: int, point: Vector, normal: Vector) -> tuple[Vector, int]:
+def departure(primitive: int, point: Vector, normal: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - a ray offset needs it
     """Where a ray starts that leaves a surface to the side of `normal`, and the primitive that it has left.
 
-    Ideal geometry: on the surface itself. A renderer with a ray offset starts elsewhere; its error model overrides this.
+    Ideal geometry: on the surface itself. A renderer with a ray offset starts beside it, as its error model says.
     """
     return point, primitive
 

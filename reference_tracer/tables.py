@@ -11,6 +11,7 @@ import numpy as np
 
 from reference_tracer import scene_data as layout
 from reference_tracer.bounding_volume_tree import build_tree
+from scenes.camera import PerspectiveCamera
 from scenes.lights import ConstantBackground, DirectionalLight, PointLight, PolynomialFalloff
 from scenes.requirements import Feature
 from scenes.shapes import Mesh, Sphere
@@ -47,6 +48,7 @@ class _Tables:
 def build_tables(scene: Scene, features: Collection[str], arithmetic: Arithmetic) -> layout.SceneData:
     """The scene for a kernel in this arithmetic with these features."""
     tables = _Tables()
+    _add_camera(scene, tables)
     _add_shapes(scene, features, tables)
     _add_local_terms(scene, features, tables)
     if Feature.DIELECTRICS in features:
@@ -69,6 +71,18 @@ def _laid_end_to_end(tables: _Tables, arithmetic: Arithmetic) -> layout.SceneDat
     numbers = np.concatenate([np.empty(0), *(values.ravel() for values in tables.numbers.values())])
     integers = np.concatenate([starts, rows, *tables.integers.values()])
     return layout.SceneData(arithmetic.numbers(numbers), arithmetic.integers(integers))
+
+
+def _add_camera(scene: Scene, tables: _Tables) -> None:
+    camera = scene.camera
+    extent = camera.vertical_field_of_view if isinstance(camera, PerspectiveCamera) else camera.view_height
+    tables.add(layout.CAMERA_POSITION, [camera.position])
+    tables.add(layout.CAMERA_LOOK_AT, [camera.look_at])
+    tables.add(layout.CAMERA_UP, [camera.up])
+    tables.add(layout.CAMERA_EXTENT, [extent])
+    tables.add_integers(layout.CAMERA_SIZE, [camera.width, camera.height])
+    tables.add_integers(layout.CAMERA_MEDIUM, [material_number(scene, camera.inside)])
+    tables.add_integers(layout.MAX_DEPTH, [scene.max_depth])
 
 
 def _add_shapes(scene: Scene, features: Collection[str], tables: _Tables) -> None:

@@ -10,12 +10,12 @@ if TYPE_CHECKING:
 
 
 def add(a: Vector, b: Vector) -> Vector:
-    """a + b."""
+    """The sum a + b."""
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
 
 
 def subtract(a: Vector, b: Vector) -> Vector:
-    """a - b."""
+    """The difference a - b."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
@@ -35,12 +35,12 @@ def multiply(a: Vector, b: Vector) -> Vector:
 
 
 def dot(a: Vector, b: Vector) -> Scalar:
-    """a · b."""
+    """The scalar product a · b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """a × b."""
+    """The vector product a × b."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
