@@ -28,16 +28,16 @@ def refracted_direction(direction: Vector, normal: Vector, cosine: Scalar, g: Sc
 def fresnel_reflectance(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
     """The reflected fraction of unpolarised light, in [0, 1]; 1 at grazing incidence.
 
-    With r_s = (c - g)/(c + g) and r_p = (η²c - g)/(η²c + g) (Born, Wolf, Principles of Optics, 7th ed., section 1.5.2),
-    both numerators rewritten by g² - c² = η² - 1 so that nothing cancels where η is near 1.
+    R = r_s²/2·(1 + (r_p/r_s)²) with r_p/r_s = (c·g - s²)/(c·g + s²) and s² = 1 - c² (Cook, Torrance, "A Reflectance Model
+    for Computer Graphics", 1982, section "The Fresnel Term"). The numerator of r_s = (c - g)/(c + g) is rewritten by
+    g² - c² = η² - 1, so that nothing cancels where η is near 1; the quotient is in [-1, 1] however g is rounded.
     """
     if cosine == 0.0:
         return 1.0
-    squared = ratio * ratio
-    excess = (ratio - 1.0) * (ratio + 1.0)
-    perpendicular = excess / ((g + cosine) * (g + cosine))
-    parallel = excess * (1.0 - cosine * cosine * (1.0 + squared)) / ((g + squared * cosine) * (g + squared * cosine))
-    return 0.5 * (perpendicular * perpendicular + parallel * parallel)
+    perpendicular = (ratio - 1.0) * (ratio + 1.0) / ((g + cosine) * (g + cosine))
+    sine_squared = (1.0 - cosine) * (1.0 + cosine)
+    quotient = (cosine * g - sine_squared) / (cosine * g + sine_squared)
+    return 0.5 * perpendicular * perpendicular * (1.0 + quotient * quotient)
 
 
 def medium_transmittance(absorption: Vector, distance: Scalar) -> Vector:
