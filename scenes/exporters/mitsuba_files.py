@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import OpenImageIO
-from plyfile import PlyData, PlyElement
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -47,17 +46,15 @@ def checkerboard_coordinates(checkerboard: Checkerboard, vertices: NDArray[np.fl
 def write_triangles(
     path: Path, vertices: NDArray[np.float64], faces: NDArray[np.int64], coordinates: NDArray[np.float64] | None
 ) -> None:
-    """A PLY file as text with vertices (n, 3), faces (m, 3) and texture coordinates (n, 2).
+    """A PLY file as text with vertices (n, 3), faces (m, 3) and texture coordinates (n, 2). Raises OSError.
 
-    In float32, since Mitsuba keeps no more; plyfile prints 18 digits, which name a float32 exactly.
+    In float32, since Mitsuba keeps no more: nine digits name a float32 exactly.
     """
-    columns = dict(zip("xyz", vertices.T, strict=True))
-    if coordinates is not None:
-        columns |= dict(zip("uv", coordinates.T, strict=True))
-    vertex = np.empty(len(vertices), dtype=[(name, "f4") for name in columns])
-    for name, column in columns.items():
-        vertex[name] = column
-    face = np.empty(len(faces), dtype=[("vertex_indices", "i4", (3,))])
-    face["vertex_indices"] = faces
-    elements = [PlyElement.describe(vertex, "vertex"), PlyElement.describe(face, "face")]
-    PlyData(elements, text=True).write(str(path))
+    names = "xyz" if coordinates is None else "xyzuv"
+    columns = vertices if coordinates is None else np.hstack([vertices, coordinates])
+    with path.open("w", encoding="ascii", newline="\n") as file:
+        file.write(f"ply\nformat ascii 1.0\nelement vertex {len(vertices)}\n")
+        file.writelines(f"property float {name}\n" for name in names)
+        file.write(f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+        np.savetxt(file, columns.astype(np.float32), fmt="%.9g")
+        np.savetxt(file, np.insert(faces, 0, 3, axis=1), fmt="%d")

@@ -1,12 +1,10 @@
 from __future__ import annotations
 
-import io
+import struct
 
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plyfile import PlyData, PlyElement
 
 from scenes.ply_file import read_ply
 from scenes.triangle_lists import MeshFileError
@@ -16,14 +14,17 @@ POINTS = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.5)]
 
 
 def ply(polygons: list[list[int]], *, text: bool, order: str = "<", name: str = "vertex_indices") -> bytes:
-    vertex = np.array(POINTS, dtype=[("x", "f4"), ("y", "f4"), ("z", "f4")])
-    face = np.empty(len(polygons), dtype=[(name, "O")])
-    for index, polygon in enumerate(polygons):
-        face[name][index] = np.array(polygon, dtype="i4")
-    elements = [PlyElement.describe(vertex, "vertex"), PlyElement.describe(face, "face", val_types={name: "i4"})]
-    stream = io.BytesIO()
-    PlyData(elements, text=text, byte_order=order).write(stream)
-    return stream.getvalue()
+    encoding = "ascii" if text else {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
+    header = (
+        f"ply\nformat {encoding} 1.0\nelement vertex {len(POINTS)}\nproperty float x\nproperty float y\n"
+        f"property float z\nelement face {len(polygons)}\nproperty list uchar int {name}\nend_header\n"
+    )
+    if text:
+        rows = [*POINTS, *([len(polygon), *polygon] for polygon in polygons)]
+        return (header + "".join(" ".join(f"{value:g}" for value in row) + "\n" for row in rows)).encode()
+    points = b"".join(struct.pack(f"{order}3f", *point) for point in POINTS)
+    faces = (struct.pack(f"{order}B{len(polygon)}i", len(polygon), *polygon) for polygon in polygons)
+    return header.encode() + points + b"".join(faces)
 
 
 VALID = [ply([[0, 1, 2, 3], [3, 1, 0]], text=True), ply([[0, 1, 2, 3], [3, 1, 0]], text=False)]
@@ -52,9 +53,18 @@ def test_every_encoding_gives_the_same_triangles(text: bool, order: str, name: s
         (VALID[0].replace(b"float z", b"float w"), "expected an element 'vertex' with the properties x, y and z"),
         (VALID[0].replace(b"element face", b"element side"), "expected an element 'face'"),
         (VALID[0].replace(b"vertex_indices", b"neighbours"), "expected an element 'face' with a property list"),
-        (ply([[0, 1]], text=True), "face 0: expected a list of at least three whole numbers, found 2"),
+        (ply([[0, 1]], text=True), "face 0: expected at least three vertices, found 2"),
         (ply([[0, 1, 2], [0, 1, 4]], text=True), "face 1: expected vertex numbers from 0 to 3, found 4"),
         (ply([[0, 1, -1]], text=True), "face 0: expected vertex numbers from 0 to 3, found -1"),
+        (ply([[0, 1, 2]], text=True).replace(b"3 0 1 2", b"3 0 0.5 2"), "vertex numbers from 0 to 3, found 0.5"),
+        (VALID[0].replace(b"4 0 1 2 3", b"5 0 1 2 3"), "face 0: expected a line with more values"),
+        (VALID[0].replace(b"4 0 1 2 3", b"3 0 1 2 3"), "face 0: expected fewer values on its line"),
+        (VALID[0].replace(b"4 0 1 2 3", b"-1"), "face 0: expected the length of a list, found -1"),
+        (VALID[0].replace(b"4 0 1 2 3", b"4 0 one 2 3"), "face 0: expected a number, found 'one'"),
+        (VALID[0].replace(b"float y", b"float x"), "two properties of one name"),
+        (VALID[0].replace(b"float y", b"real y"), "line 5: expected a format, element or property, found 'property re"),
+        (VALID[0].replace(b"format ascii 1.0\n", b""), "expected a line such as 'format ascii 1.0'"),
+        (VALID[0].replace(b"vertex 4", b"vertex 1500001") + b"0 0 0\n" * 10**6, "has too many rows of 'vertex'"),
         (ply([], text=True), "has no faces"),
         (VALID[0].replace(b"1 1 0\n", b"1 nan 0\n", 1), "vertex 2: expected a finite coordinate"),
     ],
@@ -64,6 +74,32 @@ def test_each_broken_file_gets_its_sentence(content: bytes, sentence: str) -> No
         read_ply(content)
     assert sentence in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_other_elements_and_properties_and_carriage_returns_are_read_past() -> None:
+    text = """ply
+comment made by hand
+format ascii 1.0
+element mark 1
+property list uint8 float32 numbers
+element face 1
+property uchar red
+property list uchar uint16 vertex_index
+element vertex 3
+property float64 z
+property float64 x
+property float64 y
+property short weight
+end_header
+2 7 8
+255 3 2 1 0
+0 1 2 9
+3 4 5 9
+6 7 8 9
+"""
+    expected = (((1.0, 2.0, 0.0), (4.0, 5.0, 3.0), (7.0, 8.0, 6.0)), ((2, 1, 0),))
+    assert read_ply(text.encode()) == expected
+    assert read_ply(text.replace("\n", "\r\n").encode()) == expected
 
 
 @settings(deadline=None)  # the machine may be busy
