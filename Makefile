@@ -1,0 +1,40 @@
+# Everything a person needs: `make` lists it. Recipes use relative paths only, so that any folder will do.
+.DEFAULT_GOAL := help
+.PHONY: help run test test-deep lint bench clean
+
+# `make run PYTHON=/path/to/python` chooses the interpreter; else tools/make_environment.sh finds one.
+export PYTHON
+
+WORKERS ?= 2
+
+help: ## List these commands
+	@sed -nE 's/^([a-z-]+):.*## (.*)/make \1\t\2/p' Makefile | expand -t 18
+
+run: .venv/run.stamp ## Judge the scene library on every renderer found here; write the report to results/
+	.venv/bin/raytruth run
+
+test: lint ## Check style and types, and run all tests
+	.venv/bin/pytest -n $(WORKERS)
+
+test-deep: .venv/test.stamp ## Run the tests with 50 times as many random examples
+	.venv/bin/pytest -n $(WORKERS) --hypothesis-profile deep
+
+lint: .venv/test.stamp ## Check style and types only
+	.venv/bin/ruff check .
+	.venv/bin/ruff format --check .
+	.venv/bin/mypy
+
+bench: .venv/test.stamp ## Time the tracer beside its peers
+	.venv/bin/python -m benchmarks.peers
+
+clean: ## Remove the environment and all caches; results/ stays
+	rm -rf .venv build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
+
+# The stamps: an environment is made again only when what it is made from has changed.
+.venv/run.stamp: pyproject.toml constraints.txt tools/make_environment.sh
+	@bash tools/make_environment.sh . libllvm19
+	@touch $@
+
+.venv/test.stamp: pyproject.toml constraints.txt tools/make_environment.sh
+	@bash tools/make_environment.sh '.[test]' libllvm19 chromium
+	@touch $@ .venv/run.stamp
