@@ -16,7 +16,7 @@ run: .venv/run.stamp ## Judge the scene library on every renderer found here; wr
 test: lint ## Check style and types, and run all tests
 	.venv/bin/pytest -n $(WORKERS)
 
-test-deep: .venv/test.stamp ## Run the tests with 50 times as many random examples
+test-deep: .venv/test.stamp ## Run the tests with 10,000 random examples a property
 	.venv/bin/pytest -n $(WORKERS) --hypothesis-profile deep
 
 lint: .venv/test.stamp ## Check style and types only

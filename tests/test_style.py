@@ -1,0 +1,128 @@
+"""Rules of this project that no linter knows."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+
+# What each folder may import of ours (README.md, "Folders"). A report reads records and images that others wrote.
+RECORDS = {
+    "comparisons.results",
+    "comparisons.images",
+    "comparisons.renderer.Image",
+    "reference_tracer.explanation_record",
+}
+MAY_IMPORT = {
+    "scenes": {"scenes"},
+    "reference_tracer": {"reference_tracer", "scenes"},
+    "comparisons": {"comparisons", "reference_tracer", "scenes"},
+    "reports": {"reports", *RECORDS},
+    "raytruth": {"raytruth", "reports", "comparisons", "reference_tracer", "scenes"},
+}
+SOURCES = [path for folder in MAY_IMPORT for path in sorted((ROOT / folder).rglob("*.py"))]
+TESTS = sorted((ROOT / "tests").rglob("*.py"))
+
+# A file that needs more has a second topic.
+MOST_LINES = 350
+
+# Joined here, so that this file may be searched, too.
+REGISTRY_HOSTS = ["py" + "pi.org", "python" + "hosted.org", "crates" + ".io", "npm" + "js.org", "deb." + "debian.org"]
+MACHINE_PATH = re.compile(r"(?<![\w.}])/(work|root|home|Users)/\w")
+
+# Folders of tests that look at more than one source folder.
+TESTS_BY_PURPOSE = {"properties", "extremes", "meta", "browser"}
+
+
+def tracked_text_files() -> list[Path]:
+    """All files of the repository that are not pictures; in a tree without git, the Python files."""
+    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=False).stdout.decode()
+    paths = [ROOT / name for name in listed.split("\0") if name] or [*SOURCES, *TESTS]
+    return [path for path in paths if path.suffix not in {".png", ".exr"} and path.is_file()]
+
+
+def relative(path: Path) -> str:
+    return str(path.relative_to(ROOT))
+
+
+def imported_modules(path: Path) -> set[str]:
+    """Dotted names of the modules that a file imports, for type checking only, too."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: relative imports hide the direction"
+            assert node.module is not None
+            # `from comparisons import results` imports a module, `from comparisons.results import Cell` a name.
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return names
+
+
+@pytest.mark.parametrize("path", [*SOURCES, *TESTS], ids=relative)
+def test_a_file_is_short_enough_for_one_topic(path: Path) -> None:
+    assert len(path.read_text(encoding="utf-8").splitlines()) <= MOST_LINES
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=relative)
+def test_imports_go_one_way(path: Path) -> None:
+    allowed = MAY_IMPORT[path.relative_to(ROOT).parts[0]]
+    ours = {name for name in imported_modules(path) if name.split(".")[0] in {*MAY_IMPORT, "tests", "benchmarks"}}
+    assert {name for name in ours if not any(f"{name}.".startswith(f"{prefix}.") for prefix in allowed)} == set()
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=relative)
+def test_what_is_public_says_what_it_is(path: Path) -> None:
+    module = ast.parse(path.read_text(encoding="utf-8"))
+    assert ast.get_docstring(module)
+    waiting: list[ast.AST] = [module]
+    while waiting:
+        for node in ast.iter_child_nodes(waiting.pop()):
+            if isinstance(node, ast.ClassDef | ast.FunctionDef) and not node.name.startswith("_"):
+                overrides_a_visitor = node.name.startswith("visit_")
+                assert ast.get_docstring(node) or overrides_a_visitor, f"line {node.lineno}: {node.name}"
+                if isinstance(node, ast.ClassDef):
+                    waiting.append(node)
+
+
+@pytest.mark.parametrize("path", [*SOURCES, *TESTS], ids=relative)
+def test_an_exception_from_the_linter_has_a_reason_and_no_handler_catches_everything(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    for line in text.splitlines():
+        if "# " + "noqa" in line:
+            assert re.search(r"# noqa: [A-Z]+\d+(, [A-Z]+\d+)* - \w", line), line
+    handlers = (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.ExceptHandler))
+    caught = {ast.unparse(handler.type) if handler.type else "everything" for handler in handlers}
+    assert caught.isdisjoint({"everything", "Exception", "BaseException"})
+
+
+def test_every_rule_switched_off_for_the_project_has_a_reason() -> None:
+    lines = (ROOT / "pyproject.toml").read_text(encoding="utf-8").splitlines()
+    switched_off = [line for line in lines if re.match(r'\s*"[A-Z]+\d+",', line)]
+    assert switched_off
+    assert [line for line in switched_off if "#" not in line] == []
+
+
+def test_no_file_names_a_package_registry_or_a_path_of_one_machine() -> None:
+    paths = tracked_text_files()
+    assert paths
+    for path in paths:
+        text = path.read_text(encoding="utf-8")
+        assert [host for host in REGISTRY_HOSTS if host in text] == [], path
+        assert MACHINE_PATH.search(text) is None, path
+
+
+def test_the_folders_of_tests_are_those_of_the_source() -> None:
+    folders = {path.parent.relative_to(ROOT / "tests").parts[0] for path in TESTS if path.parent != ROOT / "tests"}
+    assert folders - TESTS_BY_PURPOSE == set(MAY_IMPORT)
+
+
+def test_constraints_are_names_and_versions_and_nothing_else() -> None:
+    lines = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    assert lines
+    assert [line for line in lines if not re.fullmatch(r"[\w.-]+==[\w.]+", line)] == []
