@@ -1,0 +1,28 @@
+"""In which order the tracer's tables hold a scene's primitives and lights (tables.py fills them so)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from scenes.lights import PointLight
+from scenes.shapes import Mesh, Sphere
+
+if TYPE_CHECKING:
+    from scenes.scene import Scene
+
+
+def objects_of_primitives(scene: Scene) -> list[int]:
+    """For each primitive which of the scene's objects it belongs to: spheres come first, then triangles."""
+    spheres = [index for index, shape in enumerate(scene.objects) if isinstance(shape, Sphere)]
+    triangles = [
+        index
+        for index, shape in enumerate(scene.objects)
+        if not isinstance(shape, Sphere)
+        for _ in range(len(shape.faces) if isinstance(shape, Mesh) else 1)
+    ]
+    return spheres + triangles
+
+
+def lights_as_traced(scene: Scene) -> list[int]:
+    """Which of the scene's lights the tracer adds first, second, …: point lights come first, then directional ones."""
+    return sorted(range(len(scene.lights)), key=lambda number: not isinstance(scene.lights[number], PointLight))
