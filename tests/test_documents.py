@@ -1,0 +1,82 @@
+"""The documents say what the code does."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from scenes.loading import load_scene
+from scenes.schema import json_schema
+
+ROOT = Path(__file__).parent.parent
+DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md"))]
+SCENE_FORMAT = (ROOT / "docs" / "scene-format.md").read_text(encoding="utf-8")
+SPECIFICATION = (ROOT / "docs" / "spec.md").read_text(encoding="utf-8")
+
+SCHEMA = json_schema()
+MODELS: dict[str, dict[str, Any]] = {"Scene": SCHEMA, **SCHEMA["$defs"]}
+
+ROW = re.compile(r"^\| `(\w+)` \| .+ \| (.+) \| .*\|$", re.MULTILINE)
+CLAUSE = re.compile(r"^- \*\*([A-Z]+-\d+)\*\*", re.MULTILINE)
+
+
+def section(title: str) -> str:
+    """The text under a heading of the scene format, up to the next heading; `Point light` describes PointLight."""
+    for part in re.split(r"^#+ ", SCENE_FORMAT, flags=re.MULTILINE):
+        heading, _, text = part.partition("\n")
+        if heading.replace(" ", "").lower() == title.lower():
+            return text
+    raise AssertionError(f"docs/scene-format.md has no section on {title}")
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_scene_format_tells_every_key_and_its_default(name: str) -> None:
+    told = dict(ROW.findall(section(name)))
+    model = MODELS[name]
+    assert told.keys() == model["properties"].keys()
+    for key, default in told.items():
+        assert (default == "required") == (key in model.get("required", [])), key
+        if default.startswith("`"):
+            assert json.loads(default.strip("`")) == model["properties"][key]["default"], key
+
+
+def test_the_example_of_the_scene_format_is_a_scene(tmp_path: Path) -> None:
+    (example,) = re.findall(r"```json\n(.*?)```", SCENE_FORMAT, flags=re.DOTALL)
+    path = tmp_path / "example.json"
+    path.write_text(example, encoding="utf-8")
+    assert load_scene(path).name == "example"
+
+
+def test_each_clause_of_the_specification_has_one_place_in_order() -> None:
+    clauses = CLAUSE.findall(SPECIFICATION)
+    assert [clause for clause, times in Counter(clauses).items() if times > 1] == []
+    numbers: dict[str, list[int]] = {}
+    for prefix, number in (clause.split("-") for clause in clauses):
+        numbers.setdefault(prefix, []).append(int(number))
+    assert all(found == list(range(1, len(found) + 1)) for found in numbers.values())
+
+
+def test_whatever_refers_to_a_clause_or_chapter_refers_to_one_that_exists() -> None:
+    clauses = set(CLAUSE.findall(SPECIFICATION))
+    chapters = {clause.split("-")[0] for clause in clauses}
+    sources = [path.read_text(encoding="utf-8") for path in (ROOT / "reference_tracer").glob("*.py")]
+    named_by_sources = {name for text in sources for name in re.findall(r"docs/spec\.md, ([A-Z]+)\b", text)}
+    assert named_by_sources
+    assert named_by_sources <= chapters
+    mentions = re.findall(
+        rf"\b(?:{'|'.join(chapters)})-\d+\b", "".join(path.read_text(encoding="utf-8") for path in DOCUMENTS)
+    )
+    assert set(mentions) <= clauses
+    assert set(re.findall(r"\[([A-Z]+)\]", SCENE_FORMAT)) <= chapters
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
+def test_every_link_to_a_file_leads_somewhere(path: Path) -> None:
+    links = re.findall(r"\]\(([^)\s]+)\)", path.read_text(encoding="utf-8"))
+    local = [link.partition("#")[0] for link in links if "://" not in link]
+    assert [link for link in local if not (path.parent / link).exists()] == []
