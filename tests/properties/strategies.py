@@ -1,0 +1,214 @@
+"""Rays and what they meet, drawn so that the rare cases are not rare, as tests/meta/test_generators.py proves.
+
+Floats have no subnormal parts and lie between 1e-12 and 1e12 in size, so that no product of four underflows: the bounds
+on rounding in exact.py hold.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import permutations, product
+from math import sqrt
+from typing import Any, NamedTuple
+
+from hypothesis import strategies as st
+
+from tests.properties.exact import Exact, cross, plus, times
+
+Vector = tuple[float, float, float]
+
+# Endpoints first: hypothesis reduces failures towards them.
+SCALES = st.sampled_from([1.0, 1e-6, 1e6, 1e-3, 1e3, 0.7, 13.0])
+SIGNS = st.sampled_from([1.0, -1.0])
+PARTS = st.one_of(st.sampled_from([0.0, 1.0, 0.5, 0.6, 0.8, 1e-3]), st.floats(1e-3, 1.0))
+AXIS_MAPS = st.sampled_from(
+    [(order, signs) for order in permutations(range(3)) for signs in product((1, -1), repeat=3)]
+)
+"""The 48 symmetries of the cube: an order of the axes, and a sign for each."""
+
+
+class Ray(NamedTuple):
+    origin: Vector
+    direction: Vector
+
+
+class Sphere(NamedTuple):
+    center: Vector
+    radius: float
+
+
+Corners = tuple[Vector, Vector, Vector]
+
+
+def mapped(vector: Any, axis_map: tuple[tuple[int, ...], tuple[int, ...]]) -> Any:
+    """The vector, of any number type, with its axes in another order and mirrored."""
+    order, signs = axis_map
+    x, y, z = (signs[axis] * vector[order[axis]] for axis in range(3))
+    return x, y, z
+
+
+def float_cross(a: Vector, b: Vector) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def combined(a: Vector, b: Vector, factor: float) -> Vector:
+    return a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]
+
+
+@st.composite
+def vectors(draw: st.DrawFn, scale: float = 1.0) -> Vector:
+    x, y, z = (draw(SIGNS) * draw(PARTS) * scale for _ in range(3))
+    return x, y, z
+
+
+@st.composite
+def directions(draw: st.DrawFn) -> Vector:
+    """Unit vectors within rounding, in all octants and along the axes."""
+    x, y, z = draw(vectors().filter(any))
+    size = sqrt(x * x + y * y + z * z)
+    return x / size, y / size, z / size
+
+
+@st.composite
+def perpendiculars(draw: st.DrawFn, direction: Vector) -> Vector:
+    """Unit vectors at a right angle to a direction, within rounding."""
+    smallest = min(range(3), key=lambda axis: abs(direction[axis]))
+    x, y, z = float_cross(direction, tuple(float(axis == smallest) for axis in range(3)))  # type: ignore[arg-type]
+    size = sqrt(x * x + y * y + z * z)
+    side = (x / size, y / size, z / size)
+    return draw(st.sampled_from([side, combined((0.0, 0.0, 0.0), side, -1.0), float_cross(direction, side)]))
+
+
+# How far the ray passes from the centre, in radii: through it, inside, nearly tangent, tangent, outside.
+PASSING_DISTANCES = st.one_of(
+    st.sampled_from([0.5, 0.0, 1.0, 1.0 - 2.0**-50, 1.0 + 2.0**-50, 1.0 - 2.0**-30, 1.0 + 2.0**-30, 1.5]),
+    st.floats(0.0, 2.0, allow_subnormal=False),
+)
+# Where the ray starts, in radii before the point closest to the centre.
+DISTANCES_BEFORE = st.one_of(st.sampled_from([3.0, 0.0, 0.5, -0.5, -3.0, 1.0, -1.0, 1e3]), st.floats(-2.0, 5.0))
+
+
+@st.composite
+def spheres(draw: st.DrawFn) -> Sphere:
+    scale = draw(SCALES)
+    return Sphere(draw(vectors(scale)), scale * draw(st.sampled_from([1.0, 0.25, 30.0, 0.3])))
+
+
+@st.composite
+def rays_near_spheres(draw: st.DrawFn) -> tuple[Ray, Sphere]:
+    sphere = draw(spheres())
+    direction = draw(directions())
+    side = draw(perpendiculars(direction))
+    closest = combined(sphere.center, side, draw(PASSING_DISTANCES) * sphere.radius)
+    origin = combined(closest, direction, -draw(DISTANCES_BEFORE) * sphere.radius)
+    return Ray(origin, combined((0.0, 0.0, 0.0), direction, draw(st.sampled_from([1.0, 0.125, 7.3])))), sphere
+
+
+SIDES = st.one_of(st.sampled_from([1.0, 1e-3, 30.0, 0.0]), st.floats(1e-3, 3.0))
+
+
+@st.composite
+def triangles(draw: st.DrawFn) -> Corners:
+    """Of all shapes, flat ones included, of every orientation and size; few of zero area."""
+    scale = draw(SCALES)
+    a = draw(vectors(scale))
+    along = draw(directions())
+    across = combined(draw(perpendiculars(along)), along, draw(st.sampled_from([0.0, 0.5, -3.0])))
+    width, height = draw(SIDES) * scale, draw(SIDES) * scale
+    return a, combined(a, along, width), combined(a, across, height)
+
+
+# Barycentric coordinates u and v: inside, on edges, at corners, just beside an edge, outside.
+PARTS_OF_EDGES = st.one_of(st.sampled_from([0.25, 0.0, 1.0, 0.5]), st.floats(0.0, 1.0, allow_subnormal=False))
+INSIDE = st.builds(lambda u, v: (u, (1.0 - u) * v), PARTS_OF_EDGES, PARTS_OF_EDGES)
+BESIDE = st.sampled_from([-0.25, 2.0**-50, -(2.0**-50), 1.25, 0.5])
+ANYWHERE = st.one_of(INSIDE, st.tuples(BESIDE, BESIDE))
+
+
+@st.composite
+def rays_near_triangles(
+    draw: st.DrawFn, positions: st.SearchStrategy[tuple[float, float]] = ANYWHERE
+) -> tuple[Ray, Corners]:
+    """Aimed at a point of the triangle's plane, from either side, or away from it."""
+    a, b, c = draw(triangles())
+    u, v = draw(positions)
+    target = combined(combined(combined(a, a, -u - v), b, u), c, v)
+    size = max(abs(part) for corner in (a, b, c) for part in corner) or 1.0
+    toward = combined((0.0, 0.0, 0.0), draw(directions()), draw(st.sampled_from([1.0, 0.125, 7.3])) * size)
+    starts = st.sampled_from([1.0, 0.5, 20.0] if positions is INSIDE else [1.0, 0.5, 20.0, -1.0])
+    return Ray(combined(target, toward, -draw(starts)), toward), (a, b, c)
+
+
+# Where between the faces of a box.
+BOX_PARTS = st.one_of(st.sampled_from([0.5, 0.0, 1.0, 1.5, -0.5, 1.0 + 2.0**-50]), st.floats(0.0, 1.0))
+
+# Rational numbers with small denominators, negative ones and 0 too.
+SMALL_FRACTIONS = st.builds(Fraction, st.integers(-12, 12), st.integers(1, 12))
+
+
+@st.composite
+def rational_unit_vectors(draw: st.DrawFn) -> Exact:
+    """Points of the unit sphere with rational coordinates, by stereographic projection; all octants."""
+    x, y = draw(SMALL_FRACTIONS), draw(SMALL_FRACTIONS)
+    squared = x * x + y * y
+    point = (2 * x / (1 + squared), 2 * y / (1 + squared), (1 - squared) / (1 + squared))
+    order, signs = draw(AXIS_MAPS)
+    return point[order[0]] * signs[0], point[order[1]] * signs[1], point[order[2]] * signs[2]
+
+
+@st.composite
+def rational_frames(draw: st.DrawFn) -> tuple[Exact, Exact, Exact]:
+    """Three perpendicular rational unit vectors, right-handed: a rational quaternion's rotation."""
+    w, x, y, z = draw(st.tuples(*[st.integers(-5, 5)] * 4).filter(any))
+    size = Fraction(w * w + x * x + y * y + z * z)
+    first = ((w * w + x * x - y * y - z * z) / size, 2 * (x * y + w * z) / size, 2 * (x * z - w * y) / size)
+    second = (2 * (x * y - w * z) / size, (w * w - x * x + y * y - z * z) / size, 2 * (y * z + w * x) / size)
+    return first, second, cross(first, second)
+
+
+class Refraction(NamedTuple):
+    """All that belongs to one refracted ray, in rational numbers."""
+
+    direction: Exact
+    normal: Exact
+    cosine: Fraction
+    ratio: Fraction
+    g: Fraction
+    tangent: Exact
+    """The unit vector in the surface towards which the ray goes."""
+    sine: Fraction
+
+
+ANGLE_PARAMETERS = st.one_of(
+    st.sampled_from([Fraction(1, 2), Fraction(1), Fraction(1, 1000), Fraction(999, 1000)]),
+    st.builds(lambda a, b: Fraction(min(a, b), max(a, b)), st.integers(1, 60), st.integers(1, 60)),
+)
+"""t = tan(θ/2) in (0, 1], so that sin θ = 2t/(1+t²) and cos θ = (1-t²)/(1+t²) are rational."""
+
+
+@st.composite
+def rational_refractions(draw: st.DrawFn) -> Refraction:
+    """Both angles have rational sines and cosines; so has the index ratio, their quotient."""
+    normal, tangent, _ = draw(rational_frames())
+    before, beyond = draw(ANGLE_PARAMETERS), draw(ANGLE_PARAMETERS)
+    sine, cosine = 2 * before / (1 + before**2), (1 - before**2) / (1 + before**2)
+    ratio = sine / (2 * beyond / (1 + beyond**2))
+    g = ratio * (1 - beyond**2) / (1 + beyond**2)
+    return Refraction(plus(times(normal, -cosine), times(tangent, sine)), normal, cosine, ratio, g, tangent, sine)
+
+
+# All that a scene may state, and where rounding is worst: nearly equal indices.
+INDEX_RATIOS = st.one_of(
+    st.sampled_from([1.5, 1 / 1.5, 1.0, 1e-6, 1e6, 1.0 + 2.0**-40, 1.0 - 2.0**-40]), st.floats(0.2, 5.0)
+)
+
+
+@st.composite
+def cosines_and_ratios(draw: st.DrawFn) -> tuple[float, float]:
+    """A cosine of incidence in (0, 1] and an index ratio; around the critical angle where there is one."""
+    ratio = draw(INDEX_RATIOS)
+    cosine = draw(st.one_of(st.sampled_from([1.0, 0.5, 1e-6]), st.floats(1e-6, 1.0)))
+    if ratio < 1.0 and draw(st.booleans()):
+        near = draw(st.sampled_from([0.0, 2.0**-52, -(2.0**-52), 1e-9, -1e-9]))
+        cosine = min(1.0, max(1e-6, sqrt((1.0 - ratio) * (1.0 + ratio)) * (1.0 + near)))
+    return cosine, ratio
