@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import json
 import re
+import tomllib
 from collections import Counter
+from importlib.metadata import metadata, requires
 from pathlib import Path
 from typing import Any
 
 import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 from scenes.loading import load_scene
 from scenes.schema import json_schema
@@ -20,6 +24,11 @@ SPECIFICATION = (ROOT / "docs" / "spec.md").read_text(encoding="utf-8")
 
 SCHEMA = json_schema()
 MODELS: dict[str, dict[str, Any]] = {"Scene": SCHEMA, **SCHEMA["$defs"]}
+
+DEPENDENCIES = (ROOT / "docs" / "dependencies.md").read_text(encoding="utf-8")
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+# The library in its wheel may be replaced by the user's own, as the LGPL asks; nothing of it is in our code.
+LESSER = {"python-flint"}
 
 ROW = re.compile(r"^\| `(\w+)` \| .+ \| (.+) \| .*\|$", re.MULTILINE)
 CLAUSE = re.compile(r"^- \*\*([A-Z]+-\d+)\*\*", re.MULTILINE)
@@ -80,3 +89,29 @@ def test_every_link_to_a_file_leads_somewhere(path: Path) -> None:
     links = re.findall(r"\]\(([^)\s]+)\)", path.read_text(encoding="utf-8"))
     local = [link.partition("#")[0] for link in links if "://" not in link]
     assert [link for link in local if not (path.parent / link).exists()] == []
+
+
+def test_the_dependencies_are_told_and_constrained() -> None:
+    stated = {Requirement(line).name for line in [*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["test"]]}
+    assert set(re.findall(r"^\| ([a-z][a-z0-9-]+) \| (?!licence)", DEPENDENCIES, flags=re.MULTILINE)) == stated
+    lines = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    assert stated <= {canonicalize_name(line.partition("==")[0]) for line in lines}
+
+
+def test_no_dependency_brings_a_licence_that_ours_cannot_carry() -> None:
+    waiting = [Requirement(line) for line in PROJECT["dependencies"]]
+    seen: set[str] = set()
+    while waiting:
+        requirement = waiting.pop()
+        name = canonicalize_name(requirement.name)
+        if name in seen or (requirement.marker and not requirement.marker.evaluate({"extra": ""})):
+            continue
+        seen.add(name)
+        found = metadata(name)
+        # A field may hold the licence's whole text, whose first line names it.
+        names = [found.get("License-Expression") or "", (found.get("License") or "").partition("\n")[0]]
+        names += [value for value in found.get_all("Classifier") or [] if value.startswith("License ::")]
+        assert any(names) or name in LESSER, f"{name} states no licence"
+        assert name in LESSER or not re.search(r"GPL|General Public", " ".join(names)), f"{name}: {names}"
+        waiting += map(Requirement, requires(name) or [])
+    assert len(seen) > len(PROJECT["dependencies"])
