@@ -27,7 +27,8 @@ class Verdict(StrEnum):
 class Record(BaseModel):
     """A part of the results: immutable, and without keys that it does not know."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    # Infinity and not-a-number are results, too: JSON has no numbers for them, so they are written as strings.
+    model_config = ConfigDict(extra="forbid", frozen=True, ser_json_inf_nan="strings")
 
 
 class Metrics(Record):

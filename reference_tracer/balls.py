@@ -55,7 +55,7 @@ def ball_arithmetic(
         return exact if rounded.rad() == 0 else arb(exact.mid(), abs(exact) * unit_roundoff)
 
     functions = {
-        **_comparisons(decisions),
+        **comparison_functions(decisions),
         "certainly_less": lambda a, b: a < b,
         "certainly_zero": lambda a: a == 0,
         "exp": lambda x: x.exp(),
@@ -93,7 +93,7 @@ class TooManyOutcomesError(Exception):
     """There are more outcomes than the limit."""
 
 
-def _comparisons(decisions: Decisions) -> dict[str, Callable[[Any, Any], bool]]:
+def comparison_functions(decisions: Decisions) -> dict[str, Callable[[Any, Any], bool]]:
     """The comparisons of the source; whole numbers are compared as they are."""
 
     def is_less(a: Any, b: Any) -> bool:
@@ -131,8 +131,7 @@ def _floor(x: Any, decisions: Decisions) -> int:
     """The whole number below x; where x may lie on either side of one, the decisions choose."""
     if not x.is_finite():
         return int(decisions.next())
-    lowest = math.floor(float(x.lower()))
-    whole = math.floor(float(x.upper()))
+    lowest, whole = (int(end.floor().unique_fmpz()) for end in (x.lower(), x.upper()))
     while whole > lowest and not x >= whole and (x < whole or decisions.next()):
         whole -= 1
     return whole
@@ -142,8 +141,7 @@ def _sqrt(x: Any) -> Any:
     """The root of the part of x that is not negative: the source takes roots only of what it decided to be so."""
     if x >= 0:
         return x.sqrt()
-    upper = x.upper().sqrt()
-    return arb(upper / 2, upper / 2)
+    return _from_zero_to(x.upper().sqrt())
 
 
 def _power(base: Any, exponent: Any) -> Any:
@@ -151,7 +149,12 @@ def _power(base: Any, exponent: Any) -> Any:
     if base > 0:
         return base**exponent
     upper = base.upper()
-    if not upper > 0:
+    if upper <= 0:
         return arb(0)
-    highest = upper**exponent
-    return arb(highest / 2, highest.upper() / 2)
+    return _from_zero_to(upper**exponent)
+
+
+def _from_zero_to(largest: Any) -> Any:
+    """A ball that holds everything between 0 and the ball `largest`."""
+    half = largest.upper() / 2
+    return arb(half.mid(), half.upper())

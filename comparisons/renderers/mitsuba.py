@@ -82,7 +82,7 @@ class MitsubaRenderer:
 
     error_model = ErrorModel(
         description="float32 with rays that start off the surface (Mitsuba 3.9)",
-        precision_bits=20,
+        precision_bits=24,
         ray_offset=RAY_EPSILON,
         shadow_shortening=SHADOW_EPSILON,
     )

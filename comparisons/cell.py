@@ -1,0 +1,178 @@
+"""One cell of the matrix: render, judge, and write the cell whole or not at all."""
+
+from __future__ import annotations
+
+import shlex
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.images import write_image
+from comparisons.judgement import UNJUDGED, judge_first_hits, judge_image, largest_error, verdict_of, worst_pixel
+from comparisons.radiance_bound import radiance_bound
+from comparisons.renderer import RendererError
+from comparisons.results import Cell, Images, Judgement, StochasticTest, Verdict
+from comparisons.stochastic import SIGNIFICANCE, compare_means
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from comparisons.feasible_set import FeasibleSet
+    from comparisons.renderer import Rays, Renderer, Rendering
+    from scenes.scene import Scene
+
+CELL_FILE = "cell.json"
+TRUTH_FILE = "truth.exr"
+LOG_FILE = "log.txt"
+
+
+@dataclass(frozen=True)
+class CellPlace:
+    """Which cell, and what identifies everything it depends on."""
+
+    scene: str
+    renderer: str
+    integrator: str
+    key: str
+    source: str
+    """What names the scene on the command line: its library name or its path."""
+
+    @property
+    def folder(self) -> str:
+        """Relative to the results directory."""
+        return f"cells/{self.scene}/{self.renderer}-{self.integrator}"
+
+    @property
+    def command(self) -> str:
+        """The command that repeats the cell."""
+        return f"raytruth run {shlex.quote(self.source)} --renderer {self.renderer} --fresh"
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a scene's cells are judged by."""
+
+    scene: Scene
+    truth: NDArray[np.float64]
+    rays: Rays
+    feasible: FeasibleSet
+
+
+def run_cell(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence, directory: Path) -> Cell:
+    """Render and judge in a temporary folder, which then takes the cell's place; a failed render is an error cell."""
+    target = directory / place.folder
+    target.parent.mkdir(parents=True, exist_ok=True)
+    folder = Path(mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+    try:
+        cell = _judged(place, renderer, depth, evidence, folder)
+        for scratch in (*folder.glob("*.npz"), *folder.glob("job.json")):
+            scratch.unlink()
+        (folder / CELL_FILE).write_text(cell.model_dump_json(indent=1), encoding="utf-8")
+        folder.chmod(0o755)
+        shutil.rmtree(target, ignore_errors=True)
+        folder.replace(target)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+    return cell
+
+
+def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence, folder: Path) -> Cell:
+    try:
+        rendering = renderer.render(evidence.scene, place.integrator, depth, evidence.rays, folder)
+        _check_size(rendering, evidence.truth)
+    except RendererError as error:
+        log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
+        return Cell(**_names(place), version=renderer.version(), verdict=Verdict.ERROR, reason=str(error), log=log)
+    judged = _judge_noisy if rendering.batch_means is not None else _judge_exact
+    judgement, test, verdict, reason, distances = judged(rendering, evidence)
+    hits = None if rendering.first_hits is None else judge_first_hits(rendering.first_hits, evidence.feasible)
+    if hits is not None and hits.failing:
+        verdict = Verdict.FAIL
+        reason = f"{hits.failing} first hits lie outside their feasible sets; {reason}"
+    write_image(folder / "render.exr", rendering.image.astype(np.float32))
+    write_image(folder / "tolerances.exr", distances.astype(np.float32))
+    return Cell(
+        **_names(place),
+        verdict=verdict,
+        reason=reason,
+        largest_error=largest_error(rendering.image, evidence.truth, evidence.feasible),
+        seconds=rendering.seconds,
+        version=renderer.version(),
+        judgement=judgement,
+        stochastic=test,
+        first_hits=hits,
+        images=Images(
+            render=f"{place.folder}/render.exr",
+            truth=f"cells/{place.scene}/{TRUTH_FILE}",
+            tolerances=f"{place.folder}/tolerances.exr",
+            variance=_write_variance(rendering, place, folder),
+        ),
+        log=f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None,
+    )
+
+
+def _names(place: CellPlace) -> dict[str, str]:
+    return {
+        "scene": place.scene,
+        "renderer": place.renderer,
+        "integrator": place.integrator,
+        "command": place.command,
+        "key": place.key,
+    }
+
+
+def _check_size(rendering: Rendering, truth: NDArray[np.float64]) -> None:
+    if rendering.image.shape != truth.shape:
+        raise RendererError(f"expected an image of shape {truth.shape}, got {rendering.image.shape}")
+
+
+Judged = tuple[Judgement, StochasticTest | None, Verdict, str, "NDArray[np.float64]"]
+
+
+def _judge_exact(rendering: Rendering, evidence: Evidence) -> Judged:
+    judgement, distances = judge_image(rendering.image, evidence.truth, evidence.feasible)
+    verdict, reason = verdict_of(judgement)
+    return judgement, None, verdict, reason, distances
+
+
+def _judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
+    """The mean of many samples against the hull of each pixel's feasible set."""
+    bound = radiance_bound(evidence.scene)
+    assert bound is not None, "comparability.py lets no stochastic scene through without a bound"
+    unjudged = evidence.feasible.outcomes == 0
+    # A sample is rounded as all numbers are; one part in 2^20 is far above a float32 rounding of the largest.
+    most = bound.radiance * (1 + 2.0**-20)
+    low, high = evidence.feasible.hull()
+    low = np.where(unjudged[..., np.newaxis], 0.0, np.clip(low, 0.0, most))
+    high = np.where(unjudged[..., np.newaxis], most, np.clip(high, 0.0, most))
+    assert rendering.batch_means is not None, "only noisy renderings are judged here"
+    outcome = compare_means(low, high, rendering.batch_means, rendering.samples, most)
+    p_values = outcome.p_values.min(axis=2)
+    # Exponents of these probabilities grow with the square of the distance, so that this is a distance, too.
+    with np.errstate(divide="ignore"):
+        distances = np.where(unjudged, UNJUDGED, np.sqrt(np.log(p_values) / np.log(SIGNIFICANCE)))
+    judgement = Judgement(
+        pixels=unjudged.size,
+        failing=int((p_values < SIGNIFICANCE).sum()),
+        unjudged=int(unjudged.sum()),
+        ambiguous=int((evidence.feasible.outcomes > 1).sum()),
+        worst=worst_pixel(rendering.image, evidence.truth, evidence.feasible, distances),
+    )
+    verdict = Verdict.PASS if outcome.passes else Verdict.FAIL
+    probability = f"the least likely mean has p = {outcome.test.smallest_p_value:.2g} after correction"
+    limit = f"against a significance of {SIGNIFICANCE:g}"
+    reason = f"{probability}, {limit}, with {rendering.samples} samples a pixel"
+    return judgement, outcome.test, verdict, reason, distances
+
+
+def _write_variance(rendering: Rendering, place: CellPlace, folder: Path) -> str | None:
+    """The variance of the mean, estimated from the batches."""
+    if rendering.batch_means is None:
+        return None
+    variance = rendering.batch_means.var(axis=0, ddof=1, dtype=np.float64) / len(rendering.batch_means)
+    write_image(folder / "variance.exr", variance.astype(np.float32))
+    return f"{place.folder}/variance.exr"

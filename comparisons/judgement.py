@@ -1,0 +1,136 @@
+"""The verdict on an image: does every pixel lie in its feasible set?"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.feasible_set import UNUSED
+from comparisons.results import FirstHitComparison, Judgement, Verdict, WorstPixel
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from comparisons.feasible_set import FeasibleSet
+    from comparisons.renderer import FirstHits
+
+UNJUDGED = -1.0
+"""What a pixel that cannot be judged has in place of a distance in tolerances."""
+
+
+def distances_in_tolerances(image: ArrayLike, feasible: FeasibleSet) -> NDArray[np.float64]:
+    """Each pixel's distance from the middle of its nearest outcome, in half widths of that outcome's box.
+
+    Shape (height, width); up to 1 the pixel is feasible; infinity for a value that is not a number, or that differs
+    where there is no tolerance at all; -1 where the pixel cannot be judged.
+    """
+    distances = _box_distances(np.asarray(image, dtype=np.float64), feasible.low, feasible.high)
+    nearest: NDArray[np.float64] = np.where(feasible.outcomes == 0, UNJUDGED, distances.min(axis=2))
+    return nearest
+
+
+def judge_image(
+    image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet
+) -> tuple[Judgement, NDArray[np.float64]]:
+    """The counts and the worst pixel, and the map of distances in tolerances."""
+    distances = distances_in_tolerances(image, feasible)
+    judgement = Judgement(
+        pixels=distances.size,
+        failing=int((distances > 1).sum()),
+        unjudged=int((distances == UNJUDGED).sum()),
+        ambiguous=int((feasible.outcomes > 1).sum()),
+        worst=worst_pixel(image, truth, feasible, distances),
+    )
+    return judgement, distances
+
+
+def verdict_of(judgement: Judgement) -> tuple[Verdict, str]:
+    """Pass if every judged pixel lies in its feasible set, and at least one could be judged."""
+    judged = judgement.pixels - judgement.unjudged
+    if judged == 0:
+        return Verdict.FAIL, "no pixel could be judged: this arithmetic leaves everything open"
+    if judgement.failing:
+        return Verdict.FAIL, f"{judgement.failing} of {judged} judged pixels lie outside their feasible sets"
+    return Verdict.PASS, f"all {judged} judged pixels lie in their feasible sets"
+
+
+def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet) -> float:
+    """The largest absolute difference of a channel: from the truth, or from the nearest of several outcomes."""
+    value = np.asarray(image, dtype=np.float64)
+    from_truth = np.abs(value - truth)
+    middles = 0.5 * (feasible.low + feasible.high)
+    from_outcomes = np.abs(value[:, :, np.newaxis] - middles)
+    place = np.argmin(_filled(from_outcomes.max(axis=3)), axis=2)
+    nearest = np.take_along_axis(from_outcomes, place[:, :, np.newaxis, np.newaxis], axis=2)[:, :, 0]
+    ambiguous = (feasible.outcomes > 1)[:, :, np.newaxis]
+    return float(np.where(ambiguous, np.minimum(nearest, from_truth), from_truth).max())
+
+
+def judge_first_hits(hits: FirstHits, feasible: FeasibleSet) -> FirstHitComparison:
+    """The first hits against their feasible sets: primitive, distance, position and normal of one outcome must fit."""
+    with np.errstate(invalid="ignore"):
+        values = np.concatenate([hits.depth[..., np.newaxis], hits.position, hits.normal], axis=2)
+    same_primitive = feasible.hit_primitives == hits.primitive[..., np.newaxis]
+    nothing = hits.primitive < 0
+    fits = _box_distances(values, feasible.hit_low, feasible.hit_high) <= 1
+    agrees = (same_primitive & (fits | nothing[..., np.newaxis])).any(axis=2)
+    places = feasible.hit_primitives != UNUSED
+    judged = places.any(axis=2)
+    certain = judged & (places.sum(axis=2) == 1)
+    compared = certain & ~nothing & same_primitive[..., 0]
+    middles = 0.5 * (feasible.hit_low + feasible.hit_high)[..., 0, :]
+    differences = np.abs(values - middles)[compared]
+    largest = differences.max(axis=0) if len(differences) else np.zeros(values.shape[2])
+    return FirstHitComparison(
+        compared=int(judged.sum()),
+        primitive_mismatches=int((judged & ~same_primitive.any(axis=2)).sum()),
+        ambiguous=int((judged & ~certain).sum()),
+        largest_depth_error=float(largest[0]),
+        largest_position_error=float(largest[1:4].max()),
+        largest_normal_error=float(largest[4:].max()),
+        failing=int((judged & ~agrees).sum()),
+    )
+
+
+def _box_distances(
+    values: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Distance of values (h, w, c) from boxes (h, w, k, c) in half widths: (h, w, k), infinity for unused boxes."""
+    middle, half_width = 0.5 * (low + high), 0.5 * (high - low)
+    difference = np.abs(values[:, :, np.newaxis] - middle)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        in_widths = np.where(difference == 0, 0.0, difference / half_width)
+    return _filled(in_widths.max(axis=3))
+
+
+def _filled(distances: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Infinity in place of what is not a number."""
+    return np.where(np.isnan(distances), np.inf, distances)
+
+
+def worst_pixel(
+    image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet, distances: NDArray[np.float64]
+) -> WorstPixel:
+    """The pixel with the largest distance in tolerances, and the box of its outcomes that is nearest."""
+    y, x = np.unravel_index(int(np.argmax(distances)), distances.shape)
+    boxes = _box_distances(
+        image[y : y + 1, x : x + 1].astype(np.float64),
+        feasible.low[y : y + 1, x : x + 1],
+        feasible.high[y : y + 1, x : x + 1],
+    )
+    place = int(np.argmin(boxes[0, 0]))
+    return WorstPixel(
+        x=int(x),
+        y=int(y),
+        value=_triple(image[y, x]),
+        truth=_triple(truth[y, x]),
+        low=_triple(feasible.low[y, x, place]),
+        high=_triple(feasible.high[y, x, place]),
+        tolerances=float(distances[y, x]),
+    )
+
+
+def _triple(values: ArrayLike) -> tuple[float, float, float]:
+    red, green, blue = np.asarray(values, dtype=np.float64).tolist()
+    return red, green, blue

@@ -1,0 +1,39 @@
+"""All renderers that raytruth knows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from comparisons.renderers.closed_form import ClosedFormRenderer
+from comparisons.renderers.mitsuba import mitsuba_llvm, mitsuba_scalar
+from comparisons.renderers.reference import ReferenceTracer
+from scenes.wording import quoted, suggestion
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from comparisons.renderer import Renderer
+
+
+class UnknownRendererError(Exception):
+    """A name that no renderer has; the message is one sentence."""
+
+
+def all_renderers() -> dict[str, Renderer]:
+    """Each renderer by its name, available here or not."""
+    renderers: tuple[Renderer, ...] = (mitsuba_scalar(), mitsuba_llvm(), ClosedFormRenderer(), ReferenceTracer())
+    return {renderer.name: renderer for renderer in renderers}
+
+
+def select_renderers(names: Iterable[str]) -> dict[str, Renderer]:
+    """The renderers of these names, each once and in this order; all of them for no names.
+
+    Raises UnknownRendererError for a name that none has.
+    """
+    known = all_renderers()
+    selected: dict[str, Renderer] = {}
+    for name in names:
+        if name not in known:
+            raise UnknownRendererError(f"There is no renderer {quoted(name)}: {suggestion(name, known)}")
+        selected[name] = known[name]
+    return selected or known

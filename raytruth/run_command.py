@@ -1,0 +1,138 @@
+"""`raytruth run`."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from raytruth.errors import UsageError
+from raytruth.options import AsJson, open_scene
+from raytruth.output import progress
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from comparisons.matrix import Plan
+    from comparisons.renderer import Renderer
+    from comparisons.results import Cell, Results
+    from scenes.scene import Scene
+
+FAILED = 1
+
+
+def run(
+    *scenes: str,
+    renderer: Annotated[tuple[str, ...], Parameter(negative="", consume_multiple=True)] = (),
+    require: Annotated[tuple[str, ...], Parameter(negative="", consume_multiple=True)] = (),
+    out: Path = Path("results"),
+    jobs: int | None = None,
+    fresh: Annotated[bool, Parameter(negative="")] = False,
+    as_json: AsJson = False,
+) -> int:
+    """Run the conformance matrix: scenes × renderers, each cell judged against the truth.
+
+    Exit status 0 if all comparable cells pass, 1 if one fails or errs or a required renderer is missing.
+
+    Examples: `raytruth run`, `raytruth run whitted-1980 my-scene.json --renderer mitsuba --out results`
+
+    Parameters
+    ----------
+    scenes
+        Names of library scenes, or paths of scene files; the whole library by default.
+    renderer
+        Only these renderers; all by default. Names may be separated by commas.
+    require
+        Renderers that must be available, on pain of exit status 1.
+    out
+        The results directory; an earlier run's cells are kept, and taken over where nothing has changed.
+    jobs
+        How many scenes are worked on side by side; one a processor by default.
+    fresh
+        Render every cell again.
+    """
+    from comparisons.matrix import plan_run
+    from comparisons.renderers.catalogue import UnknownRendererError, select_renderers
+    from comparisons.results_directory import with_metrics, write_results
+    from reports.html import write_html_report
+    from scenes.library import library_names
+
+    if jobs is not None and jobs < 1:
+        raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
+    try:
+        selected = select_renderers(_split(renderer))
+        required = select_renderers(_split(require)) if require else {}
+    except UnknownRendererError as error:
+        raise UsageError(str(error)) from error
+    selected |= required
+    sources = scenes or library_names()
+    opened = _distinct([open_scene(source) for source in sources])
+    with progress("Looking for the renderers"):
+        plan = plan_run(sources, list(selected), out, fresh=fresh)
+    cells = _run(plan, out, jobs or os.cpu_count() or 1)
+    with progress("Measuring global differences"):
+        cells = with_metrics(out, cells)
+    results = write_results(out, _command(), opened, list(selected.values()), cells)
+    report = write_html_report(out)
+    _show(results, report, as_json)
+    return _status(cells, required.values())
+
+
+def _split(names: Iterable[str]) -> list[str]:
+    return [part.strip() for name in names for part in name.split(",") if part.strip()]
+
+
+def _distinct(opened: list[Scene]) -> list[Scene]:
+    names = [scene.name for scene in opened]
+    for name in names:
+        if names.count(name) > 1:
+            raise UsageError(f"There are two scenes called {name!r}: give each scene file a name of its own.")
+    return opened
+
+
+def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:
+    """Render and judge what the plan leaves to do, saying how far it has come."""
+    from comparisons.matrix import run_plan
+
+    total = sum(len(cells) for cells in plan.by_scene.values())
+    cells = list(plan.settled)
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
+        task = bar.add_task("Rendering and judging", total=total)
+        for done, cell in enumerate(run_plan(plan, out, jobs), start=1):
+            cells.append(cell)
+            bar.advance(task)
+            if not console.is_terminal:
+                line = f"[{done}/{total}] {cell.scene} {cell.renderer} {cell.integrator}: {cell.verdict}"
+                print(line, file=sys.stderr, flush=True)
+    return cells
+
+
+def _command() -> str:
+    return shlex.join(["raytruth", *sys.argv[1:]])
+
+
+def _show(results: Results, report: Path, as_json: bool) -> None:
+    from reports.console import print_matrix
+
+    if as_json:
+        print(results.model_dump_json(indent=2))
+    else:
+        print_matrix(results, Console(), report)
+
+
+def _status(cells: Sequence[Cell], required: Iterable[Renderer]) -> int:
+    from comparisons.results import Verdict
+
+    missing = [renderer for renderer in required if renderer.version() is None]
+    for renderer in missing:
+        print(f"raytruth: {renderer.name} is required and not installed: {renderer.install}", file=sys.stderr)
+    bad = any(cell.verdict in {Verdict.FAIL, Verdict.ERROR} for cell in cells)
+    return FAILED if bad or missing else 0
