@@ -18,7 +18,8 @@ Falloff = Literal["none", "inverse_square", "polynomial"]
 class Record(BaseModel):
     """A part of an explanation."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    # JSON has no numbers for infinity and not-a-number: they are written as strings.
+    model_config = ConfigDict(extra="forbid", frozen=True, ser_json_inf_nan="strings")
 
 
 class Hit(Record):

@@ -5,7 +5,6 @@ from reference_tracer.explanation import MOST_RAYS, ExplanationError, explain
 from reference_tracer.explanation_record import Explanation
 from reference_tracer.rendering import prepare
 from scenes.library import open_scene
-from scenes.lights import PointLight
 from scenes.scene import Scene
 
 # Together they have every term, both projections, both kinds of lights, absorption, and meshes in a tree of boxes.
@@ -97,7 +96,7 @@ def test_total_internal_reflection_sends_one_ray_on() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "x", "y", "shape"), [("sphere-over-floor", 88, 57, "sphere"), ("self-shadowing-ring", 104, 48, "triangle")]
+    ("name", "x", "y", "shape"), [("sphere-over-floor", 88, 57, "sphere"), ("cornell-box", 30, 78, "mesh")]
 )
 def test_a_shadow_names_the_primitive_and_the_object_in_the_way(name: str, x: int, y: int, shape: str) -> None:
     scene = open_scene(name)

@@ -1,0 +1,108 @@
+"""The command line: which commands there are, and how each way of going wrong ends.
+
+Commands are named by their modules and imported only when they run, so that `--help` answers at once.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib.metadata import version
+from typing import TYPE_CHECKING
+
+from cyclopts import App, CycloptsError
+
+from raytruth.errors import UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+BAD_USAGE = 2
+INTERRUPTED = 130  # what shells give for a program that SIGINT (2) ended: 128 + 2
+BROKEN_PIPE = 141  # likewise for SIGPIPE (13)
+
+HELP = """raytruth tells whether a ray tracer is right: how far from the truth, and which term it got wrong.
+
+Try `raytruth scenes list`, then `raytruth explain whitted-1980 --pixel 80,60`.
+"""
+
+COMMANDS = {
+    "run": (
+        "raytruth.run_command:run",
+        "Run the conformance matrix: scenes × renderers, each cell judged against the truth.",
+        "Exit status 0 if all comparable cells pass, 1 if one fails or errs or a required renderer is missing. "
+        "Examples: `raytruth run`, `raytruth run whitted-1980 mine.json --renderer mitsuba --out results`",
+    ),
+    "scenes": ("raytruth.scenes_commands:app", "List, show, validate and export scenes.", ""),
+    "renderers": (
+        "raytruth.renderers_command:renderers",
+        "Show who can render here, what each can do, and how to install the rest.",
+        "Each renderer is tried, which takes some seconds. Example: `raytruth renderers mitsuba --json`",
+    ),
+    "render": (
+        "raytruth.render_command:render",
+        "Render a scene with the reference tracer.",
+        "Examples: `raytruth render whitted-1980 -o whitted.png --size 640x480 --samples 4`, "
+        "`raytruth render mine.json -o mine.exr --arithmetic float32`",
+    ),
+    "explain": (
+        "raytruth.explain_command:explain",
+        "Explain one pixel: every ray of its tree, every hit, normal, term and weight, and the sum.",
+        "Examples: `raytruth explain whitted-1980 --pixel 80,60`, `raytruth explain mine.json --pixel 0,0 --json`",
+    ),
+    "report": (
+        "raytruth.report_command:report",
+        "Rebuild the report of a results directory from its files alone.",
+        "Example: `raytruth report results`",
+    ),
+}
+"""Each command's function, its summary, and what its own `--help` adds."""
+
+
+def make_app() -> App:
+    """All commands."""
+    app = App(name="raytruth", help=HELP, version=lambda: version("raytruth"), help_format="markdown")
+    for name, (place, summary, more) in COMMANDS.items():
+        app.command(place, name=name, help=f"{summary}\n\n{more}")
+    return app
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; returns the exit status: 0, what the command says, or 2 for bad usage or input."""
+    _let_all_text_be_printed()
+    try:
+        app = make_app()
+        tokens = list(sys.argv[1:] if arguments is None else arguments)
+        result = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+        sys.stdout.flush()  # so that a broken pipe is noticed here
+    except BrokenPipeError:
+        # What is still buffered must not fail once more when Python ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE
+    except KeyboardInterrupt:
+        print("raytruth: interrupted.", file=sys.stderr)
+        return INTERRUPTED
+    except CycloptsError as error:
+        return _bad_usage(f"{_one_line(error)} See raytruth --help.")
+    except UsageError as error:
+        return _bad_usage(str(error))
+    except OSError as error:
+        return _bad_usage(f"{error.filename or 'a file'}: {error.strerror or error}.")
+    return result if isinstance(result, int) else 0
+
+
+def _let_all_text_be_printed() -> None:
+    """A terminal that cannot show η shows a question mark, and the program goes on."""
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(errors="replace")
+
+
+def _bad_usage(sentence: str) -> int:
+    print(f"raytruth: {sentence}", file=sys.stderr)
+    return BAD_USAGE
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())

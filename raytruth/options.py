@@ -1,0 +1,45 @@
+"""Options and arguments that several commands share."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from raytruth.errors import UsageError
+from scenes import library
+from scenes.camera import LARGEST_SIDE
+from scenes.loading import SceneError
+
+if TYPE_CHECKING:
+    from scenes.scene import Scene
+
+AsJson = Annotated[bool, Parameter(name="--json", negative="")]
+
+# More digits than any pixel has; Python takes long over whole numbers of very many.
+_WHOLE_NUMBER = r"\d{1,9}"
+
+
+def open_scene(name_or_path: str) -> Scene:
+    """A scene of the library, or a scene file. Raises UsageError with every problem that it has."""
+    try:
+        return library.open_scene(name_or_path)
+    except SceneError as error:
+        raise UsageError("\n".join(error.problems)) from error
+
+
+def parse_pixel(text: str) -> tuple[int, int]:
+    """The column and the row in `X,Y`. Raises UsageError for any other text."""
+    match = re.fullmatch(rf"(-?{_WHOLE_NUMBER}),(-?{_WHOLE_NUMBER})", text, re.ASCII)
+    if match is None:
+        raise UsageError(f"--pixel: expected X,Y as in 32,20 (column from the left, row from the top), found {text!r}.")
+    return int(match[1]), int(match[2])
+
+
+def parse_size(text: str) -> tuple[int, int]:
+    """The width and the height in `WxH`. Raises UsageError for any other text and for absurd sizes."""
+    match = re.fullmatch(rf"({_WHOLE_NUMBER})x({_WHOLE_NUMBER})", text, re.ASCII)
+    if match is None or not all(1 <= int(side) <= LARGEST_SIDE for side in match.groups()):
+        raise UsageError(f"--size: expected WIDTHxHEIGHT as in 320x240, both from 1 to {LARGEST_SIDE}, found {text!r}.")
+    return int(match[1]), int(match[2])

@@ -1,0 +1,118 @@
+"""`raytruth render`."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+from tempfile import NamedTemporaryFile
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+from cyclopts import Parameter
+from cyclopts.validators import Number
+
+from comparisons.images import ImageError, write_image
+from raytruth.errors import UsageError
+from raytruth.options import AsJson, open_scene, parse_size
+from raytruth.output import print_json, progress
+from reference_tracer import rendering
+from reference_tracer.arithmetic import FLOAT, FLOAT32, FLOAT64
+from reports.pictures import tone_picture
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+SUFFIXES = (".exr", ".png")
+# 4,096 rays a pixel: more shows no difference in 8 bits, and is a typing error rather than a wish.
+MOST_SAMPLES = 64
+
+
+def render(
+    scene: str,
+    /,
+    *,
+    out: Annotated[Path, Parameter(name=["--out", "-o"])],
+    arithmetic: Literal["float", "float64", "float32"] = "float64",
+    size: str | None = None,
+    samples: Annotated[int, Parameter(validator=Number(gte=1, lte=MOST_SAMPLES))] = 1,
+    as_json: AsJson = False,
+) -> None:
+    """Render a scene with the reference tracer.
+
+    Parameters
+    ----------
+    scene
+        A scene of the library, or the path of a .json file.
+    out
+        The image: .exr for linear float32 RGB, .png for 8-bit sRGB (values above 1 are clipped).
+    arithmetic
+        The number type: interpreted Python floats (slow), or compiled float64 or float32.
+    size
+        WIDTHxHEIGHT in pixels; by default the scene's own.
+    samples
+        n×n rays a pixel on a regular grid; 1 is the ray through the centre.
+    as_json
+        Print one JSON document instead of text.
+    """
+    _check_destination(out)
+    opened = open_scene(scene)
+    if size is not None:
+        width, height = parse_size(size)
+        camera = opened.camera.model_copy(update={"width": width, "height": height})
+        opened = opened.model_copy(update={"camera": camera})
+    chosen = {"float": FLOAT, "float64": FLOAT64, "float32": FLOAT32}[arithmetic]
+    what = f"{opened.name} at {opened.camera.width}x{opened.camera.height} in {arithmetic}"
+    start = time.perf_counter()
+    try:
+        with progress(f"Rendering {what}"):
+            image = rendering.render(opened, chosen, samples=samples)
+    except ArithmeticError as error:  # only Python floats raise, as for a light in the very point that it lights
+        raise UsageError(f"{opened.name} has a pixel without a value in Python floats: {error}.") from error
+    seconds = time.perf_counter() - start
+    with np.errstate(over="ignore"):  # what float32 cannot hold is infinite in the file
+        _write(out, image.astype(np.float32))
+    if as_json:
+        print_json(
+            {
+                "scene": opened.name,
+                "file": str(out),
+                "width": opened.camera.width,
+                "height": opened.camera.height,
+                "arithmetic": arithmetic,
+                "samples": samples,
+                "seconds": seconds,
+            }
+        )
+    else:
+        print(f"Wrote {out}: {what}, {seconds:.1f} s with compiling")
+
+
+def _check_destination(path: Path) -> None:
+    """Before the work, not after it."""
+    if path.suffix.lower() not in SUFFIXES:
+        raise UsageError(f"--out: expected a file that ends in {' or '.join(SUFFIXES)}, found {path.name!r}.")
+    if not path.parent.is_dir():
+        raise UsageError(f"--out: there is no folder {path.parent}; create it first.")
+    if path.is_dir():
+        raise UsageError(f"--out: expected a file, but {path} is a folder.")
+    if not os.access(path.parent, os.W_OK):
+        raise UsageError(f"--out: the folder {path.parent} cannot be written to.")
+
+
+def _write(path: Path, image: NDArray[Any]) -> None:
+    """The image appears whole or not at all."""
+    if path.suffix.lower() == ".exr":
+        try:
+            write_image(path, image)
+        except ImageError as error:
+            raise UsageError(f"{error}.") from error
+        return
+    with NamedTemporaryFile(prefix=".", dir=path.parent, delete=False) as file:
+        unfinished = Path(file.name)
+        try:
+            file.write(tone_picture(image))
+            file.close()
+            unfinished.replace(path)
+        finally:
+            unfinished.unlink(missing_ok=True)
