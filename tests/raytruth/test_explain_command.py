@@ -1,0 +1,60 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from reference_tracer.explanation import explain
+from reference_tracer.explanation_record import Explanation
+from scenes.library import open_scene
+from tests.raytruth.running import document, refusal, run
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def test_the_text_ends_with_the_pixel(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = run(capsys, "explain", "single-sphere", "--pixel", "48,48")
+    assert (status, err) == (0, "")
+    assert out.startswith("Pixel (48, 48) of single-sphere")
+    assert out.splitlines()[-1].startswith("Sum of the 1 contribution: the pixel is (")
+
+
+def test_hexadecimal_text_has_no_decimal_colours(capsys: pytest.CaptureFixture[str]) -> None:
+    _, out, _ = run(capsys, "explain", "single-sphere", "--pixel", "48,48", "--hex")
+    assert "0x1." in out.splitlines()[-1]
+
+
+def test_json_is_the_whole_explanation_exactly(capsys: pytest.CaptureFixture[str]) -> None:
+    told = document(capsys, "explain", "glass-sphere", "--pixel", "32,32")
+    assert list(told)[:3] == ["scene", "x", "y"]
+    assert Explanation.model_validate(told) == explain(open_scene("glass-sphere"), 32, 32)
+
+
+@pytest.mark.parametrize(
+    ("pixel", "expected"),
+    [
+        ("96,0", "outside the image of single-sphere: expected 0,0 (top left) to 95,95"),
+        ("-1,5", "outside the image"),
+        ("1", "expected X,Y"),
+        ("1,2,3", "expected X,Y"),
+        ("1.5,2", "expected X,Y"),
+        ("a,b", "expected X,Y"),
+        ("٣,٣", "expected X,Y"),
+        ("9" * 5000 + ",0", "expected X,Y"),
+    ],
+)
+def test_a_bad_pixel_is_one_sentence(pixel: str, expected: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert expected in refusal(capsys, "explain", "single-sphere", f"--pixel={pixel}")
+
+
+def test_an_unknown_scene_is_one_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+    assert "did you mean" in refusal(capsys, "explain", "glass-spher", "--pixel", "0,0")
+
+
+def test_a_broken_file_tells_all_its_problems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "broken.json"
+    path.write_text("{}")
+    status, out, err = run(capsys, "explain", str(path), "--pixel", "0,0")
+    assert (status, out) == (2, "")
+    assert err.count("broken.json: ") >= 4
