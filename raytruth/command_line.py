@@ -74,10 +74,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         app = make_app()
         tokens = list(sys.argv[1:] if arguments is None else arguments)
         result = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
-        sys.stdout.flush()  # so that a broken pipe is noticed here
+        print(end="", flush=True)  # so that a broken pipe is noticed here
     except BrokenPipeError:
-        # What is still buffered must not fail once more when Python ends.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _discard_output()
         return BROKEN_PIPE
     except KeyboardInterrupt:
         print("raytruth: interrupted.", file=sys.stderr)
@@ -87,7 +86,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except UsageError as error:
         return _bad_usage(str(error))
     except OSError as error:
-        return _bad_usage(f"{error.filename or 'a file'}: {error.strerror or error}.")
+        return _bad_usage(_told(error))
     return result if isinstance(result, int) else 0
 
 
@@ -97,6 +96,19 @@ def _let_all_text_be_printed() -> None:
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
             reconfigure(errors="replace")
+
+
+def _discard_output() -> None:
+    """What is still buffered must not fail once more when Python ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _told(error: OSError) -> str:
+    """In one sentence; an error without a file's name comes from standard output."""
+    if error.filename is not None:
+        return f"{error.filename}: {error.strerror}."
+    _discard_output()
+    return f"the output cannot be written: {error.strerror or error}."
 
 
 def _bad_usage(sentence: str) -> int:

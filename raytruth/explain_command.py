@@ -19,7 +19,7 @@ def explain(
     scene: str,
     /,
     *,
-    pixel: str,
+    pixel: Annotated[str, Parameter(allow_leading_hyphen=True)],
     hexadecimal: Annotated[bool, Parameter(name="--hex", negative="")] = False,
     as_json: AsJson = False,
 ) -> None:

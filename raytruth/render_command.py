@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from pathlib import Path
-from tempfile import NamedTemporaryFile
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
@@ -108,11 +108,10 @@ def _write(path: Path, image: NDArray[Any]) -> None:
         except ImageError as error:
             raise UsageError(f"{error}.") from error
         return
-    with NamedTemporaryFile(prefix=".", dir=path.parent, delete=False) as file:
-        unfinished = Path(file.name)
-        try:
-            file.write(tone_picture(image))
-            file.close()
-            unfinished.replace(path)
-        finally:
-            unfinished.unlink(missing_ok=True)
+    try:
+        with TemporaryDirectory(prefix=".", dir=path.parent) as folder:  # beside the file, so that a rename can move it
+            whole = Path(folder) / "image.png"
+            whole.write_bytes(tone_picture(image))
+            whole.replace(path)
+    except OSError as error:
+        raise UsageError(f"{path}: the image could not be written ({error.strerror}).") from error

@@ -182,16 +182,20 @@ def export(
         raise UsageError(f"--out: there is no folder {out.parent}; create it first.")
     if out.exists() and not out.is_dir():
         raise UsageError(f"--out: expected a folder, but {out} is a file.")
-    # Written beside it first, so that a failure leaves nothing half-written behind.
-    with TemporaryDirectory(prefix=".", dir=out.parent) as unfinished:
-        written = export_mitsuba(opened, Path(unfinished), max_depth=opened.max_depth + MITSUBA_EDGES)
-        out.mkdir(exist_ok=True)
-        names = sorted(path.name for path in Path(unfinished).iterdir())
-        for name in names:
-            (Path(unfinished) / name).replace(out / name)
+    try:
+        main_file, files = _export(opened, out)
+    except OSError as error:
+        raise UsageError(f"--out: {out} cannot be written ({error.strerror}).") from error
     if as_json:
-        print_json(
-            {"scene": opened.name, "file": str(out / written.name), "files": [str(out / name) for name in names]}
-        )
+        print_json({"scene": opened.name, "file": str(main_file), "files": list(map(str, files))})
     else:
-        print(f"Wrote {out / written.name}; open it with: mitsuba {out / written.name}")
+        print(f"Wrote {main_file}; open it with: mitsuba {main_file}")
+
+
+def _export(scene: Scene, out: Path) -> tuple[Path, list[Path]]:
+    """The scene file, and all files; written beside the folder first, so that a failure leaves nothing half-written."""
+    with TemporaryDirectory(prefix=".", dir=out.parent) as unfinished:
+        scene_file = export_mitsuba(scene, Path(unfinished), max_depth=scene.max_depth + MITSUBA_EDGES)
+        out.mkdir(exist_ok=True)
+        files = [path.replace(out / path.name) for path in sorted(Path(unfinished).iterdir())]
+    return out / scene_file.name, files

@@ -45,7 +45,7 @@ def test_json_is_the_whole_explanation_exactly(capsys: pytest.CaptureFixture[str
     ],
 )
 def test_a_bad_pixel_is_one_sentence(pixel: str, expected: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert expected in refusal(capsys, "explain", "single-sphere", f"--pixel={pixel}")
+    assert expected in refusal(capsys, "explain", "single-sphere", "--pixel", pixel)
 
 
 def test_an_unknown_scene_is_one_sentence(capsys: pytest.CaptureFixture[str]) -> None:

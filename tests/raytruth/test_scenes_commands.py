@@ -61,6 +61,7 @@ def test_show_schema_is_a_schema_that_the_scenes_obey(capsys: pytest.CaptureFixt
         (["export", "glass-sphere", "--to", "povrey", "--out", "x"], "Choose from"),
         (["export", "phong-sphere", "--to", "mitsuba", "--out", "x"], "because a point light of Mitsuba"),
         (["export", "glass-sphere", "--to", "mitsuba", "--out", "no/such/folder"], "there is no folder no/such"),
+        (["export", "glass-sphere", "--to", "mitsuba", "--out", "/proc/folder"], "/proc/folder cannot be written"),
     ],
 )
 def test_what_cannot_be_done_is_one_sentence(
