@@ -28,9 +28,9 @@ def refracted_direction(direction: Vector, normal: Vector, cosine: Scalar, g: Sc
 def fresnel_reflectance(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
     """The reflected fraction of unpolarised light, in [0, 1]; 1 at grazing incidence.
 
-    R = r_s²/2·(1 + (r_p/r_s)²) with r_p/r_s = (c·g - s²)/(c·g + s²) and s² = 1 - c² (Cook, Torrance, "A Reflectance Model
-    for Computer Graphics", 1982, section "The Fresnel Term"). The numerator of r_s = (c - g)/(c + g) is rewritten by
-    g² - c² = η² - 1, so that nothing cancels where η is near 1; the quotient is in [-1, 1] however g is rounded.
+    R = r_s²/2·(1 + (r_p/r_s)²) with r_p/r_s = (c·g - s²)/(c·g + s²) and s² = 1 - c² (Cook, Torrance, "A Reflectance
+    Model for Computer Graphics", 1982, section "The Fresnel Term"). The numerator of r_s = (c - g)/(c + g) is rewritten
+    by g² - c² = η² - 1, so that nothing cancels where η is near 1; the quotient is in [-1, 1] however g is rounded.
     """
     if cosine == 0.0:
         return 1.0
