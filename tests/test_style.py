@@ -26,6 +26,7 @@ MAY_IMPORT = {
     "comparisons": {"comparisons", "reference_tracer", "scenes"},
     "reports": {"reports", *RECORDS},
     "raytruth": {"raytruth", "reports", "comparisons", "reference_tracer", "scenes"},
+    "benchmarks": {"benchmarks", "raytruth", "reports", "comparisons", "reference_tracer", "scenes"},
 }
 SOURCES = [path for folder in MAY_IMPORT for path in sorted((ROOT / folder).rglob("*.py"))]
 TESTS = sorted((ROOT / "tests").rglob("*.py"))
@@ -74,7 +75,7 @@ def test_a_file_is_short_enough_for_one_topic(path: Path) -> None:
 @pytest.mark.parametrize("path", SOURCES, ids=relative)
 def test_imports_go_one_way(path: Path) -> None:
     allowed = MAY_IMPORT[path.relative_to(ROOT).parts[0]]
-    ours = {name for name in imported_modules(path) if name.split(".")[0] in {*MAY_IMPORT, "tests", "benchmarks"}}
+    ours = {name for name in imported_modules(path) if name.split(".")[0] in {*MAY_IMPORT, "tests"}}
     assert {name for name in ours if not any(f"{name}.".startswith(f"{prefix}.") for prefix in allowed)} == set()
 
 
@@ -97,7 +98,7 @@ def test_an_exception_from_the_linter_has_a_reason_and_no_handler_catches_everyt
     text = path.read_text(encoding="utf-8")
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT and "noqa" in token.string:
-            assert re.match(r"# noqa: [A-Z]+\d+(, [A-Z]+\d+)* - \w", token.string), token.line
+            assert re.search(r"# noqa: [A-Z]+\d+(, [A-Z]+\d+)* - \w", token.string), token.line
     handlers = (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.ExceptHandler))
     caught = {ast.unparse(handler.type) if handler.type else "everything" for handler in handlers}
     assert caught.isdisjoint({"everything", "Exception", "BaseException"})
