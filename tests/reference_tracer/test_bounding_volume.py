@@ -1,0 +1,41 @@
+from __future__ import annotations
+
+from fractions import Fraction
+from math import inf
+
+import pytest
+
+from reference_tracer.bounding_volume import box_is_missed, rounding_allowance
+
+LOW, HIGH = (-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)
+ALONG_X = (1.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("origin", "end", "missed"),
+    [
+        ((-3.0, 0.0, 0.0), inf, False),
+        ((-3.0, 1.0, 1.0), inf, False),  # along an edge
+        ((-3.0, 1.0 + 2.0**-52, 0.0), inf, True),
+        ((0.0, 0.0, 0.0), inf, False),
+        ((3.0, 0.0, 0.0), inf, True),
+        ((1.0, 0.0, 0.0), inf, False),  # leaves at the start
+        ((-3.0, 0.0, 0.0), 2.0, False),  # ends on the box
+        ((-3.0, 0.0, 0.0), 1.9, True),
+    ],
+)
+def test_a_box_is_missed_only_if_no_point_of_the_ray_is_in_it(
+    origin: tuple[float, float, float], end: float, missed: bool
+) -> None:
+    assert box_is_missed(origin, ALONG_X, LOW, HIGH, end) == missed
+    backward = (-origin[0], origin[1], origin[2])
+    assert box_is_missed(backward, (-1.0, 0.0, 0.0), LOW, HIGH, end) == missed
+
+
+def test_a_flat_box_is_touched() -> None:
+    assert not box_is_missed((-3.0, 0.0, 0.0), ALONG_X, (0.0, -1.0, -1.0), (0.0, 1.0, 1.0), inf)
+
+
+def test_the_allowance_covers_three_roundings() -> None:
+    unit_roundoff = Fraction(1, 2**53)
+    assert Fraction(rounding_allowance()) >= 1 + 2 * 3 * unit_roundoff / (1 - 3 * unit_roundoff)

@@ -1,0 +1,16 @@
+from __future__ import annotations
+
+from reference_tracer import features
+from scenes.requirements import Feature
+
+
+def names() -> dict[str, bool]:
+    return {name: value for name, value in vars(features).items() if name.isupper()}
+
+
+def test_the_source_knows_the_features_that_scenes_require_and_no_others() -> None:
+    assert set(names()) == {feature.value for feature in Feature}
+
+
+def test_everything_is_on_in_the_plain_source() -> None:
+    assert all(value is True for value in names().values())

@@ -1,0 +1,150 @@
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from reference_tracer import scene_data as layout
+from reference_tracer.arithmetic import FLOAT, make_kernel
+from reference_tracer.instantiation import COMPILED_ENTRY_POINTS, kernel_source, source_module
+from reference_tracer.rendering import prepare, render
+from reference_tracer.tables import build_tables
+from scenes.library import library_names, open_scene
+from scenes.requirements import Feature, required_features
+from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene
+
+if TYPE_CHECKING:
+    from scenes.scene import Scene
+
+# Functions that belong to one feature each, and to no other.
+FUNCTIONS_OF = {
+    Feature.SPHERES: {"nearest_sphere", "sphere_distance", "distance_to_other_side", "sphere_normal"},
+    Feature.TRIANGLES: {"nearest_triangle", "triangle_distance", "triangle_normal"},
+    Feature.BOUNDING_VOLUMES: {"box_is_missed", "clip"},
+    Feature.CHECKERBOARD: {"is_even_square"},
+    Feature.EMISSION: {"emission"},
+    Feature.AMBIENT: {"ambient"},
+    Feature.DIFFUSE: {"diffuse"},
+    Feature.PHONG: {"phong"},
+    Feature.BLINN: {"blinn"},
+    Feature.POINT_LIGHTS: {"attenuation"},
+    Feature.DIELECTRICS: {"fresnel_reflectance", "refracted_direction", "snell_discriminant", "split", "index_ratio"},
+    Feature.ABSORPTION: {"medium_transmittance"},
+}
+# These choose between two ways, so that neither is an addition that a scene could do without.
+ALTERNATIVES = {Feature.PERSPECTIVE, Feature.RADIOMETRIC, Feature.BACKGROUND_GRADIENT}
+
+
+def names_in(source: str) -> set[str]:
+    return {node.id for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Name)} | functions_in(source)
+
+
+def functions_in(source: str) -> set[str]:
+    return {node.name for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)}
+
+
+def source_of(scene: Scene) -> str:
+    return kernel_source(required_features(scene), entry_points=COMPILED_ENTRY_POINTS)[0]
+
+
+SOURCES = {name: source_of(open_scene(name)) for name in library_names()}
+
+
+@pytest.mark.parametrize("name", library_names())
+def test_a_kernel_has_the_functions_of_its_scenes_features_and_no_others(name: str) -> None:
+    required = required_features(open_scene(name))
+    functions = functions_in(SOURCES[name])
+    for feature, own in FUNCTIONS_OF.items():
+        assert own <= functions if feature in required else not own & functions, feature
+    # Two features share these.
+    assert ("mirror_direction" in functions) == bool(required & {Feature.MIRRORS, Feature.DIELECTRICS, Feature.PHONG})
+    assert ("trace_ray" in functions) == bool(required & {Feature.MIRRORS, Feature.DIELECTRICS})
+    assert ("specular" in functions) == bool(required & {Feature.PHONG, Feature.BLINN})
+    assert not names_in(SOURCES[name]) & {feature.value for feature in Feature}
+
+
+@pytest.mark.parametrize("name", library_names())
+def test_every_table_that_a_kernel_reads_is_stored(name: str) -> None:
+    scene = open_scene(name)
+    data = build_tables(scene, required_features(scene), FLOAT)
+    read = names_in(SOURCES[name]) & set(vars(layout)) - {"NUMBER_OF_TABLES"}
+    # Primitives are told apart by their numbers, so both kinds are looked up although there may be none of one.
+    may_be_empty = {"SPHERE_MATERIAL", "TRIANGLE_MATERIAL"}
+    for table in read - may_be_empty:
+        if table.isupper():
+            assert layout.rows_of(data, getattr(layout, table)) > 0, table
+
+
+def test_every_function_of_the_source_is_reached_by_some_library_scene() -> None:
+    whole = {node.name for node in source_module().body if isinstance(node, ast.FunctionDef)}
+    # The kernels of pixels one by one, for Python, are not compiled.
+    reached = set().union(*map(functions_in, SOURCES.values()))
+    assert whole == reached
+
+
+def test_every_feature_is_required_by_some_library_scene() -> None:
+    assert set().union(*(required_features(open_scene(name)) for name in library_names())) == set(Feature)
+
+
+@pytest.mark.parametrize("name", ["phong-sphere", "plane-mirror", "tinted-glass", "directional-light", "trefoil-knot"])
+def test_features_that_a_scene_does_not_require_do_not_change_its_picture(name: str) -> None:
+    scene = library_scene(name, 6, 4)
+    required = required_features(scene)
+    addable = set(Feature) - ALTERNATIVES - required
+    if Feature.TRIANGLES not in required:
+        addable -= {Feature.BOUNDING_VOLUMES}  # there is no tree of no triangles
+    expected = render(scene, FLOAT)
+    assert (rendered_with(scene, required | addable) == expected).all()
+    if name == "phong-sphere":  # one after the other takes some seconds
+        for feature in addable:
+            added = {feature, Feature.DIELECTRICS} if feature == Feature.ABSORPTION else {feature}
+            assert (rendered_with(scene, required | added) == expected).all(), feature
+
+
+def rendered_with(scene: Scene, features: Any) -> Any:
+    kernel = make_kernel(FLOAT, features)
+    image = FLOAT.image(scene.camera.height, scene.camera.width, 3)
+    kernel.render_rows(build_tables(scene, features, FLOAT), 1, 0, scene.camera.height, image)
+    return image
+
+
+def no_shadows(scene, primitive, point, normal, to_light, light_is_near):  # type: ignore[no-untyped-def]  # noqa: ARG001
+    return False
+
+
+def brighter(scene, light, distance_squared):  # type: ignore[no-untyped-def]  # noqa: ARG001 - the signature of attenuation
+    """Uses a function of the source, and a literal."""
+    return dot((1.0, 1.0, 1.0), (1.0, 0.5, 0.5))  # type: ignore[name-defined] # noqa: F821 - where it is put it is known
+
+
+def test_an_override_takes_effect_and_may_use_what_the_source_has() -> None:
+    scene = small_scene(lights=[lamp((0.0, 0.0, 3.0))])
+    assert render(scene, FLOAT)[0, 0, 0] == 1.0
+    assert render(scene, FLOAT, {"attenuation": brighter})[0, 0, 0] == 2.0
+    assert render(scene, FLOAT)[0, 0, 0] == 1.0
+
+
+def test_what_only_the_overridden_function_needed_is_left_out() -> None:
+    features = required_features(open_scene("single-sphere"))
+    assert "is_occluded" in kernel_source(features)[0]
+    assert "is_occluded" not in kernel_source(features, {"is_shadowed": no_shadows})[0]
+
+
+def test_an_unknown_function_cannot_be_overridden() -> None:
+    with pytest.raises(KeyError, match="no function is_shadowy "):
+        prepare(small_scene(), FLOAT, {"is_shadowy": no_shadows})
+
+
+def test_float_literals_are_named_and_whole_numbers_stay() -> None:
+    source, literals = kernel_source(set(Feature))
+    assert not [n for n in ast.walk(ast.parse(source)) if isinstance(n, ast.Constant) and isinstance(n.value, float)]
+    assert literals["number_0_5"] == 0.5
+    assert set(literals) <= names_in(source)
+
+
+def test_decided_comparisons_leave_no_operator_to_compare_with() -> None:
+    source, _ = kernel_source(set(Feature), decided_comparisons=True)
+    nodes = list(ast.walk(ast.parse(source)))
+    assert not [node for node in nodes if isinstance(node, ast.Compare | ast.Pow)]
+    assert {"is_less", "is_equal", "power"} <= names_in(source)

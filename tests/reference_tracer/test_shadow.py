@@ -1,0 +1,58 @@
+from __future__ import annotations
+
+import pytest
+
+from reference_tracer import scene_data as layout
+from reference_tracer.shadow import is_shadowed
+from tests.reference_tracer.kernels import scene_data
+
+# A floor (primitive 1) and a ball above it (primitive 0).
+SCENE = scene_data(
+    {
+        layout.SPHERE_CENTER: [(0.0, 2.0, 0.0)],
+        layout.SPHERE_RADIUS: [1.0],
+        layout.SPHERE_MATERIAL: [0],
+        layout.TRIANGLE_A: [(-9.0, 0.0, 9.0)],
+        layout.TRIANGLE_B: [(9.0, 0.0, 9.0)],
+        layout.TRIANGLE_C: [(0.0, 0.0, -9.0)],
+        layout.TRIANGLE_MATERIAL: [0],
+        layout.NODE_LOW: [(-9.0, 0.0, -9.0)],
+        layout.NODE_HIGH: [(9.0, 0.0, 9.0)],
+        layout.NODE_END: [1],
+        layout.NODE_FIRST_TRIANGLE: [0],
+        layout.NODE_TRIANGLES: [1],
+        layout.NODE_ORDER: [0],
+    }
+)
+UP = (0.0, 1.0, 0.0)
+BALL, FLOOR = 0, 1
+
+
+@pytest.mark.parametrize(
+    ("height", "shadowed"),
+    [
+        (0.5, False),  # a light below the ball: what stands behind a light does not matter
+        (1.0, False),  # a light on the ball's surface, which is where the shadow ray ends
+        (1.5, True),
+        (4.0, True),
+    ],
+)
+def test_only_what_stands_before_a_near_light_hides_it(height: float, shadowed: bool) -> None:
+    assert is_shadowed(SCENE, FLOOR, (0.0, 0.0, 0.0), UP, (0.0, height, 0.0), True) == shadowed
+
+
+def test_a_far_light_is_hidden_by_anything_on_the_way() -> None:
+    assert is_shadowed(SCENE, FLOOR, (0.0, 0.0, 0.0), UP, (0.0, 0.5, 0.0), False)
+    assert not is_shadowed(SCENE, FLOOR, (1.5, 0.0, 0.0), UP, (0.0, 0.5, 0.0), False)
+
+
+def test_a_surface_does_not_hide_a_light_from_the_points_on_it() -> None:
+    assert not is_shadowed(SCENE, FLOOR, (3.0, 0.0, 0.0), UP, (0.0, 9.0, 0.0), True)
+    assert not is_shadowed(SCENE, BALL, (0.0, 3.0, 0.0), UP, (0.0, 9.0, 0.0), True)
+    # Points that rounding has put a little below the surface: no shadow either.
+    assert not is_shadowed(SCENE, FLOOR, (3.0, -(2.0**-30), 0.0), UP, (0.0, 9.0, 0.0), True)
+    assert not is_shadowed(SCENE, BALL, (0.0, 3.0 - 2.0**-30, 0.0), UP, (0.0, 9.0, 0.0), True)
+
+
+def test_a_ball_hides_a_light_from_its_own_far_side() -> None:
+    assert is_shadowed(SCENE, BALL, (0.0, 3.0, 0.0), UP, (0.0, -9.0, 0.0), True)
