@@ -21,10 +21,9 @@ Vector = tuple[float, float, float]
 SCALES = st.sampled_from([1.0, 1e-6, 1e6, 1e-3, 1e3, 0.7, 13.0])
 SIGNS = st.sampled_from([1.0, -1.0])
 PARTS = st.one_of(st.sampled_from([0.0, 1.0, 0.5, 0.6, 0.8, 1e-3]), st.floats(1e-3, 1.0))
-AXIS_MAPS = st.sampled_from(
-    [(order, signs) for order in permutations(range(3)) for signs in product((1, -1), repeat=3)]
-)
-"""The 48 symmetries of the cube: an order of the axes, and a sign for each."""
+CUBE_SYMMETRIES = [(order, signs) for order in permutations(range(3)) for signs in product((1, -1), repeat=3)]
+"""An order of the axes, and a sign for each."""
+AXIS_MAPS = st.sampled_from(CUBE_SYMMETRIES)
 
 
 class Ray(NamedTuple):
@@ -95,13 +94,40 @@ def spheres(draw: st.DrawFn) -> Sphere:
 
 
 @st.composite
-def rays_near_spheres(draw: st.DrawFn) -> tuple[Ray, Sphere]:
+def untidy_rays_near_spheres(draw: st.DrawFn) -> tuple[Ray, Sphere]:
     sphere = draw(spheres())
     direction = draw(directions())
     side = draw(perpendiculars(direction))
     closest = combined(sphere.center, side, draw(PASSING_DISTANCES) * sphere.radius)
     origin = combined(closest, direction, -draw(DISTANCES_BEFORE) * sphere.radius)
     return Ray(origin, combined((0.0, 0.0, 0.0), direction, draw(st.sampled_from([1.0, 0.125, 7.3])))), sphere
+
+
+# Whole multiples of a power of 2, with which sums and products are exact: ties are then ties.
+TIDY_SCALES = st.sampled_from([1.0, 2.0**-20, 2.0**20])
+
+
+@st.composite
+def tidy_vectors(draw: st.DrawFn, scale: float = 1.0) -> Vector:
+    x, y, z = (scale * draw(st.integers(-3, 3)) for _ in range(3))
+    return x, y, z
+
+
+@st.composite
+def tidy_rays_near_spheres(draw: st.DrawFn) -> tuple[Ray, Sphere]:
+    """Along an axis, with exact distances: exactly tangent, or exactly from the surface."""
+    scale, sign, (order, _) = draw(TIDY_SCALES), draw(SIGNS), draw(AXIS_MAPS)
+    radius = scale * draw(st.sampled_from([1.0, 0.25, 32.0]))
+    center = draw(tidy_vectors(scale))
+    direction, side = (mapped(axis, (order, (1, 1, 1))) for axis in ((sign, 0.0, 0.0), (0.0, 1.0, 0.0)))
+    closest = combined(center, side, radius * draw(st.sampled_from([1.0, 0.0, 0.5, 2.0])))
+    return Ray(combined(closest, direction, -radius * draw(st.sampled_from([3.0, 1.0, 0.0, -1.0]))), direction), Sphere(
+        center, radius
+    )
+
+
+def rays_near_spheres() -> st.SearchStrategy[tuple[Ray, Sphere]]:
+    return st.one_of(untidy_rays_near_spheres(), untidy_rays_near_spheres(), tidy_rays_near_spheres())
 
 
 SIDES = st.one_of(st.sampled_from([1.0, 1e-3, 30.0, 0.0]), st.floats(1e-3, 3.0))
@@ -126,10 +152,23 @@ ANYWHERE = st.one_of(INSIDE, st.tuples(BESIDE, BESIDE))
 
 
 @st.composite
+def tidy_rays_near_triangles(draw: st.DrawFn) -> tuple[Ray, Corners]:
+    """At points of the triangle that are exact: on its edges, at its corners, in its middle."""
+    scale = draw(TIDY_SCALES)
+    a, b, c = (draw(tidy_vectors(scale)) for _ in range(3))
+    u, v = draw(st.sampled_from([(0.0, 0.5), (0.0, 0.0), (0.5, 0.5), (0.25, 0.25), (1.0, 0.0)]))
+    target = combined(combined(combined(a, a, -u - v), b, u), c, v)
+    toward = draw(tidy_vectors(scale).filter(any))
+    return Ray(combined(target, toward, -draw(st.sampled_from([1.0, 0.5]))), toward), (a, b, c)
+
+
+@st.composite
 def rays_near_triangles(
     draw: st.DrawFn, positions: st.SearchStrategy[tuple[float, float]] = ANYWHERE
 ) -> tuple[Ray, Corners]:
     """Aimed at a point of the triangle's plane, from either side, or away from it."""
+    if draw(st.integers(0, 2)) == 2:
+        return draw(tidy_rays_near_triangles())
     a, b, c = draw(triangles())
     u, v = draw(positions)
     target = combined(combined(combined(a, a, -u - v), b, u), c, v)

@@ -10,7 +10,7 @@ from tests.reference_tracer.small_scenes import small_scene
 
 
 def seen(background: dict[str, Any] | None, direction: tuple[float, float, float]) -> tuple[float, float, float]:
-    prepared = prepare(small_scene(**({"background": background} if background else {})), FLOAT)
+    prepared = prepare(small_scene(background=background) if background else small_scene(), FLOAT)
     color: tuple[float, float, float] = prepared.kernel.background_radiance(prepared.data, direction)
     return color
 

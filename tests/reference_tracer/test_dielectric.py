@@ -5,7 +5,7 @@ from typing import Any
 
 from reference_tracer import scene_data as layout
 from reference_tracer.arithmetic import make_kernel
-from reference_tracer.dielectric import index_ratio, medium_beyond, split, total_reflection_weight
+from reference_tracer.dielectric import index_ratio, medium_beyond
 from scenes.requirements import Feature
 from tests.reference_tracer.kernels import EXACT, exact_kernel, scene_data
 
@@ -48,6 +48,7 @@ def test_the_classical_convention_scales_no_radiance() -> None:
 
 
 def test_a_constant_split_replaces_fresnel_and_total_reflection() -> None:
-    assert split(SCENE, CLASSICAL, *HEAD_ON) == (KS, KT)
-    assert total_reflection_weight(SCENE, CLASSICAL) == KS
-    assert total_reflection_weight(SCENE, GLASS) == (1.0, 1.0, 1.0)
+    kernel = exact_kernel()
+    assert kernel.split(SCENE, CLASSICAL, *HEAD_ON) == (KS, KT)
+    assert kernel.total_reflection_weight(SCENE, CLASSICAL) == KS
+    assert kernel.total_reflection_weight(SCENE, GLASS) == (1, 1, 1)

@@ -17,7 +17,7 @@ GLOSSY = {"specular": {"reflectance": (1.0, 0.5, 0.0), "exponent": 3.0, "model":
 WHITE = {"diffuse": {"reflectance": (1.0, 1.0, 1.0)}}
 
 
-def pixel(material: dict[str, Any], lights: list[dict[str, Any]], **changes: Any) -> tuple[Fraction, ...]:
+def pixel(material: dict[str, Any], lights: list[dict[str, Any]], **changes: Any) -> Any:
     scene = small_scene(materials={"white": material}, lights=lights, **changes)
     return tuple(render(scene, EXACT)[0, 0])
 

@@ -19,7 +19,7 @@ GLASS: dict[str, Any] = {"dielectric": {"index_of_refraction": 1.5}}
 REFLECTANCE = Fraction(1, 25)  # ((n - 1)/(n + 1))² head on
 
 
-def pixel(materials: dict[str, Any], objects: list[Any], **changes: Any) -> tuple[Fraction, ...]:
+def pixel(materials: dict[str, Any], objects: list[Any], **changes: Any) -> Any:
     arithmetic = replace(EXACT, functions={**EXACT.functions, "exp": lambda x: 1 + x})  # rational, as nothing else is
     return tuple(render(small_scene(materials=materials, objects=objects, **changes), arithmetic)[0, 0])
 

@@ -17,6 +17,7 @@ from tests.reproduction import note_case
 def test_vectors_of_fractions_are_exact(a: Vector, b: Vector) -> None:
     p, q = exact(a), exact(b)
     factor = Fraction(2, 7)
+    vector = exact_kernel()
     assert vector.add(p, q) == plus(p, q)
     assert vector.subtract(p, q) == minus(p, q)
     assert vector.negate(p) == times(p, Fraction(-1))
