@@ -1,0 +1,130 @@
+"""The suite can fail: each fault planted in the tracer makes a cell fail, and without it the same cell passes."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from comparisons.cell import CellPlace, Evidence, run_cell
+from comparisons.comparability import depth_or_reason
+from comparisons.feasible_set import feasible_set
+from comparisons.renderer import Rays
+from comparisons.renderers.catalogue import all_renderers
+from comparisons.results import Cell, Verdict
+from reference_tracer.arithmetic import FLOAT
+from reference_tracer.rendering import primary_rays, render
+from scenes.library import open_scene
+from tests.meta import planted_faults as faults
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from comparisons.renderer import Rendering
+    from scenes.scene import Scene
+
+CLOSED_FORM = ("closed_form", "local")
+DIRECT = ("mitsuba", "direct")
+PATH = ("mitsuba-llvm", "path")
+
+# Fault, the function it replaces, a scene where it shows, and the renderer that is right.
+PLANTED: list[tuple[Callable[..., Any], str, str, tuple[str, str]]] = [
+    (faults.mirrored_image, "primary_ray", "self-shadowing-ring", DIRECT),
+    (faults.half_pixel_shift, "primary_ray", "single-sphere", CLOSED_FORM),
+    (faults.one_over_r, "attenuation", "single-sphere", CLOSED_FORM),
+    (faults.no_shadow_rays, "is_shadowed", "sphere-over-floor", DIRECT),
+    (faults.missing_clamp, "direct_light", "single-sphere", CLOSED_FORM),
+    (faults.flipped_normal_inside_glass, "surface_at", "glass-sphere", PATH),
+    (faults.inverted_index_ratio, "index_ratio", "glass-sphere", PATH),
+    (faults.no_total_internal_reflection, "snell_discriminant", "total-reflection-prism", PATH),
+    (faults.schlick, "fresnel_reflectance", "total-reflection-prism", PATH),
+    (faults.one_bounce_too_few, "reflected_ray", "facing-mirrors-depth-2", ("mitsuba", "path")),
+    (faults.horizontal_field_of_view, "camera_frame", "sphere-over-floor", DIRECT),
+    (faults.phong_for_blinn, "blinn", "blinn-sphere", CLOSED_FORM),
+]
+
+
+@pytest.mark.parametrize(
+    ("fault", "function", "scene_name", "judge"), PLANTED, ids=[fault.__name__ for fault, *_ in PLANTED]
+)
+def test_a_planted_fault_makes_a_cell_fail_that_passes_without_it(
+    fault: Callable[..., Any], function: str, scene_name: str, judge: tuple[str, str], tmp_path: Path
+) -> None:
+    assert _judge(scene_name, judge, {}, tmp_path).verdict == Verdict.PASS
+    cell = _judge(scene_name, judge, {function: fault}, tmp_path)
+    assert cell.verdict == Verdict.FAIL, f"{fault.__name__} in {function} went unnoticed: {cell.reason}"
+
+
+def test_brightness_off_by_one_part_in_ten_thousand_makes_a_cell_fail(tmp_path: Path) -> None:
+    scene = _small("single-sphere")
+    rendering = _rendered("single-sphere", DIRECT)
+    evidence = _evidence(scene, all_renderers()["mitsuba"].error_model, {})
+    brighter = _Prepared("mitsuba", rendering.__class__(rendering.image * np.float32(1 + 1e-4), 0.0))
+    cell = run_cell(_place("single-sphere", DIRECT), brighter, 1, evidence, tmp_path)
+    assert cell.verdict == Verdict.FAIL
+
+
+class _Prepared:
+    """A renderer whose rendering exists already."""
+
+    def __init__(self, name: str, rendering: Rendering) -> None:
+        self.name = name
+        self.rendering = rendering
+        self.integrators = all_renderers()[name].integrators
+        self.error_model = all_renderers()[name].error_model
+        self.install = ""
+
+    def version(self) -> str:
+        return "1"
+
+    def refuses(self, scene: Scene) -> None:
+        return None
+
+    def is_stochastic(self, scene: Scene, integrator: str) -> bool:
+        return self.rendering.batch_means is not None
+
+    def render(self, scene: Scene, integrator: str, depth: int, rays: Rays, folder: Path) -> Rendering:
+        return self.rendering
+
+
+def _judge(scene_name: str, judge: tuple[str, str], overrides: dict[str, Callable[..., Any]], folder: Path) -> Cell:
+    """The cell of a right renderer, with a truth that may have a fault."""
+    scene = _small(scene_name)
+    evidence = _evidence(scene, all_renderers()[judge[0]].error_model, overrides)
+    renderer = _Prepared(judge[0], _rendered(scene_name, judge))
+    return run_cell(_place(scene_name, judge), renderer, 1, evidence, folder)
+
+
+def _evidence(scene: Scene, error_model: Any, overrides: dict[str, Callable[..., Any]]) -> Evidence:
+    truth = np.array(render(scene, FLOAT, overrides), dtype=np.float64)
+    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible_set(scene, error_model, overrides))
+
+
+@cache
+def _rendered(scene_name: str, judge: tuple[str, str]) -> Rendering:
+    """Without first hits, which would tell many faults before the picture does."""
+    scene = _small(scene_name)
+    renderer = all_renderers()[judge[0]]
+    integrator = next(integrator for integrator in renderer.integrators if integrator.name == judge[1])
+    depth = depth_or_reason(scene, renderer, integrator)
+    assert isinstance(depth, int), depth
+    rays = Rays(*primary_rays(scene))
+    rendering = renderer.render(scene, judge[1], depth, rays, Path(mkdtemp(prefix="raytruth-")))
+    return rendering.__class__(rendering.image, 0.0, None, rendering.samples, rendering.batch_means)
+
+
+def _small(scene_name: str) -> Scene:
+    """The scene with a third of the pixels a side, which is enough to show these faults; noisy scenes are small."""
+    scene = open_scene(scene_name)
+    camera = scene.camera
+    share = 1 if any(material.dielectric for material in scene.materials.values()) else 3
+    smaller = camera.model_copy(update={"width": camera.width // share, "height": camera.height // share})
+    return scene.model_copy(update={"camera": smaller})
+
+
+def _place(scene_name: str, judge: tuple[str, str]) -> CellPlace:
+    return CellPlace(scene_name, *judge, key="", source=scene_name)
