@@ -145,7 +145,7 @@ def _judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
     assert bound is not None, "comparability.py lets no stochastic scene through without a bound"
     unjudged = evidence.feasible.outcomes == 0
     # A sample is rounded as all numbers are; one part in 2^20 is far above a float32 rounding of the largest.
-    most = bound.radiance * (1 + 2.0**-20)
+    most = bound.at_camera * (1 + 2.0**-20)
     low, high = evidence.feasible.hull()
     low = np.where(unjudged[..., np.newaxis], 0.0, np.clip(low, 0.0, most))
     high = np.where(unjudged[..., np.newaxis], most, np.clip(high, 0.0, most))

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from reference_tracer.balls import Decisions
     from reference_tracer.rendering import PreparedScene
 
-# Six independent undecided comparisons; more than this many outcomes are merged into one box.
-MOST_OUTCOMES = 64
+# Four independent undecided comparisons; more than this many outcomes are merged into one box.
+MOST_OUTCOMES = 16
 
 Box = tuple[Any, Any, Any]
 """A ball for each channel."""
@@ -57,11 +57,20 @@ class PixelEvaluator:
         self.medium = -1 if scene.camera.inside is None else names.index(scene.camera.inside)
 
     def colors(self, column: int, line: int) -> list[Box]:
-        """The boxes of a pixel's feasible colours. Raises UndecidableError."""
+        """The boxes of a pixel's feasible colours.
+
+        Raises UndecidableError, also where one box spans more than half of all that a ray of the scene may bring: such
+        a pixel would pass with almost any value.
+        """
         origin, direction = self._primary_ray(column, line)
         white = (arb(1), arb(1), arb(1))
         camera_ray = (origin, direction, white, NOTHING, self.medium, self.prepared.scene.max_depth)
-        return self._outcomes(camera_ray, MOST_OUTCOMES)
+        boxes = self._outcomes(camera_ray, MOST_OUTCOMES)
+        if self.bound is not None:
+            widest = max(float(channel.rad()) for box in boxes for channel in box)
+            if 2 * widest > self.bound.at_camera / 2:
+                raise UndecidableError
+        return boxes
 
     def first_hits(self, column: int, line: int) -> list[FirstHit]:
         """What the pixel's ray may meet first. Raises UndecidableError."""
@@ -121,7 +130,7 @@ class PixelEvaluator:
         if self.bound is None:
             return local, children
         # No surface of such a scene gives back more than it gets, however little the balls know of Fresnel's split.
-        most = self._from_black(ray[2], self.bound.weight)
+        most = self._from_black(ray[2], self.bound.growth)
         return local, [(*child[:2], _common(child[2], most), *child[3:]) for child in children]
 
     def _anything(self, weight: Box) -> Box:

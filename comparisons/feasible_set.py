@@ -93,9 +93,12 @@ def _color_bounds(evaluator: PixelEvaluator, pixel: tuple[int, int], output_bits
 
 def _hit_bounds(evaluator: PixelEvaluator, pixel: tuple[int, int], output_bits: int) -> list[tuple[int, Bounds]]:
     try:
-        return [(hit.primitive, _hit_values(hit, output_bits)) for hit in evaluator.first_hits(*pixel)]
+        hits = evaluator.first_hits(*pixel)
     except UndecidableError:
         return []
+    if not all(value.is_finite() for hit in hits for value in hit.values):
+        return []  # a triangle seen edge on may be met anywhere
+    return [(hit.primitive, _hit_values(hit, output_bits)) for hit in hits]
 
 
 def _hit_values(hit: FirstHit, output_bits: int) -> Bounds:
@@ -107,7 +110,7 @@ def _bounds(balls: Iterable[Any], output_bits: int) -> Bounds:
     bounds = []
     for ball in balls:
         middle, radius = float(ball.mid()), float(ball.rad())
-        widened = radius + abs(middle) * (2.0**-output_bits + 2.0**-52)
+        widened = radius + (abs(middle) + radius) * (2.0**-output_bits + 2.0**-52)
         bounds.append((middle - widened, middle + widened))
     return bounds
 

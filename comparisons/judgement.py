@@ -71,11 +71,11 @@ def judge_first_hits(hits: FirstHits, feasible: FeasibleSet) -> FirstHitComparis
     """The first hits against their feasible sets: primitive, distance, position and normal of one outcome must fit."""
     with np.errstate(invalid="ignore"):
         values = np.concatenate([hits.depth[..., np.newaxis], hits.position, hits.normal], axis=2)
-    same_primitive = feasible.hit_primitives == hits.primitive[..., np.newaxis]
+    places = feasible.hit_primitives != UNUSED
+    same_primitive = places & (feasible.hit_primitives == hits.primitive[..., np.newaxis])
     nothing = hits.primitive < 0
     fits = _box_distances(values, feasible.hit_low, feasible.hit_high) <= 1
     agrees = (same_primitive & (fits | nothing[..., np.newaxis])).any(axis=2)
-    places = feasible.hit_primitives != UNUSED
     judged = places.any(axis=2)
     certain = judged & (places.sum(axis=2) == 1)
     compared = certain & ~nothing & same_primitive[..., 0]

@@ -21,8 +21,10 @@ class RadianceBound:
 
     radiance: float
     """The brightest that a ray can bring, in any medium."""
-    weight: float
-    """The largest weight of a ray: 1, or the square of the largest index ratio where radiance scales with it."""
+    at_camera: float
+    """The brightest that a camera ray, or one random sample of it, can bring."""
+    growth: float
+    """How much larger than its parent's the weight of a ray can be."""
 
 
 def radiance_bound(scene: Scene) -> RadianceBound | None:
@@ -35,8 +37,18 @@ def radiance_bound(scene: Scene) -> RadianceBound | None:
     if not all(_conserves_energy_and_is_unlit(material) for material in used_materials(scene)):
         return None
     indices = [1.0, *(m.dielectric.index_of_refraction for m in scene.materials.values() if m.dielectric)]
-    scaling = (max(indices) / min(indices)) ** 2 if scene.convention == "radiometric" else 1.0
-    return RadianceBound(max(_radiances(scene)) * scaling, scaling)
+    brightest = max(_radiances(scene))
+    if scene.convention != "radiometric":
+        return RadianceBound(brightest, brightest, 1.0)
+    from_camera = (_camera_index(scene) / min(indices)) ** 2
+    between_media = (max(indices) / min(indices)) ** 2
+    return RadianceBound(brightest * between_media, brightest * from_camera, between_media)
+
+
+def _camera_index(scene: Scene) -> float:
+    """Of the medium that the camera is in."""
+    inside = scene.materials[scene.camera.inside].dielectric if scene.camera.inside else None
+    return inside.index_of_refraction if inside else 1.0
 
 
 def _conserves_energy_and_is_unlit(material: Material) -> bool:

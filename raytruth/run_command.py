@@ -12,14 +12,20 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from comparisons.matrix import Plan, plan_run, run_plan
+from comparisons.renderers.catalogue import UnknownRendererError, select_renderers
+from comparisons.results import Verdict
+from comparisons.results_directory import with_metrics, write_results
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene
 from raytruth.output import progress
+from reports.console import print_matrix
+from reports.html import write_html_report
+from scenes.library import library_names
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from comparisons.matrix import Plan
     from comparisons.renderer import Renderer
     from comparisons.results import Cell, Results
     from scenes.scene import Scene
@@ -56,13 +62,9 @@ def run(
         How many scenes are worked on side by side; one a processor by default.
     fresh
         Render every cell again.
+    as_json
+        Print the results as one JSON document instead of the table.
     """
-    from comparisons.matrix import plan_run
-    from comparisons.renderers.catalogue import UnknownRendererError, select_renderers
-    from comparisons.results_directory import with_metrics, write_results
-    from reports.html import write_html_report
-    from scenes.library import library_names
-
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
     try:
@@ -98,8 +100,6 @@ def _distinct(opened: list[Scene]) -> list[Scene]:
 
 def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:
     """Render and judge what the plan leaves to do, saying how far it has come."""
-    from comparisons.matrix import run_plan
-
     total = sum(len(cells) for cells in plan.by_scene.values())
     cells = list(plan.settled)
     console = Console(stderr=True)
@@ -120,8 +120,6 @@ def _command() -> str:
 
 
 def _show(results: Results, report: Path, as_json: bool) -> None:
-    from reports.console import print_matrix
-
     if as_json:
         print(results.model_dump_json(indent=2))
     else:
@@ -129,8 +127,6 @@ def _show(results: Results, report: Path, as_json: bool) -> None:
 
 
 def _status(cells: Sequence[Cell], required: Iterable[Renderer]) -> int:
-    from comparisons.results import Verdict
-
     missing = [renderer for renderer in required if renderer.version() is None]
     for renderer in missing:
         print(f"raytruth: {renderer.name} is required and not installed: {renderer.install}", file=sys.stderr)

@@ -115,7 +115,9 @@ class _Graph:
 def _surface(scene: Scene, material: Material) -> _Surface:
     reflects = bool(material.diffuse or material.specular)
     letters = ("S" if material.mirror or material.dielectric else "") + ("D" if reflects else "")
-    return _Surface(letters, emits=material.emission is not None, lit=reflects and bool(scene.lights))
+    # What a surface gives back of the ambient light needs no path to a light, as if it were emitted.
+    emits = material.emission is not None or (material.ambient is not None and any(scene.ambient_light))
+    return _Surface(letters, emits=emits, lit=reflects and bool(scene.lights))
 
 
 def _shines(scene: Scene) -> bool:
@@ -132,15 +134,28 @@ def _can_see(scene: Scene, i: int, j: int) -> bool:
         return scene.materials[first.material].dielectric is not None or _something_is_inside(scene, first)
     if isinstance(first, Sphere) or isinstance(second, Sphere):
         return True
-    return not _is_flat(np.concatenate([_corners(first), _corners(second)]))
+    return not _is_flat(_corners(first) if i == j else np.concatenate([_corners(first), _corners(second)]))
 
 
 def _something_is_inside(scene: Scene, sphere: Sphere) -> bool:
     """Whether a viewer may be inside: the camera, or a part of another object."""
-    points = [np.array([scene.camera.position])]
-    points += [_points(shape) for shape in scene.objects if shape is not sphere]
+    if _camera_is_inside(scene, sphere):
+        return True
+    points = [_points(shape) for shape in scene.objects if shape is not sphere]
+    if not points:
+        return False
     distances = np.linalg.norm(np.concatenate(points) - np.array(sphere.center), axis=1)
     return bool((distances < sphere.radius).any())
+
+
+def _camera_is_inside(scene: Scene, sphere: Sphere) -> bool:
+    """Whether a camera ray may start inside: those of an orthographic camera start anywhere in its plane."""
+    camera = scene.camera
+    to_center = np.array(sphere.center) - np.array(camera.position)
+    if camera.projection == "perspective":
+        return bool(np.linalg.norm(to_center) < sphere.radius)
+    forward = np.array(camera.look_at) - np.array(camera.position)
+    return bool(abs(to_center @ forward) < sphere.radius * np.linalg.norm(forward))
 
 
 def _points(shape: Shape) -> Points:

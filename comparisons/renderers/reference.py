@@ -18,10 +18,7 @@ from scenes.light_paths import WHITTED
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
     from comparisons.renderer import Rays
-    from reference_tracer.rendering import PreparedScene
     from scenes.scene import Scene
 
 FLOAT64_BITS = 53
@@ -59,7 +56,6 @@ class ReferenceTracer:
         The rays are the tracer's own, for the same camera. The time is without compiling.
         """
         prepared = prepare(scene.model_copy(update={"max_depth": depth}))
-        depths, primitives = first_hits(prepared)
         prepared.kernel.render_rows(prepared.data, 1, 0, 1, prepared.arithmetic.image(1, scene.camera.width, 3))
         start = time.perf_counter()
         radiance = render_prepared(prepared)
@@ -69,20 +65,19 @@ class ReferenceTracer:
         camera = scene.camera
         log = f"{self.version()}: {camera.width}x{camera.height} in {seconds:.3f} s\n"
         (folder / "log.txt").write_text(log, encoding="utf-8")
-        return Rendering(image, seconds, _with_positions(prepared, rays, depths, primitives))
+        return Rendering(image, seconds, _first_hits(prepared.scene, rays))
 
 
-def _with_positions(
-    prepared: PreparedScene, rays: Rays, depths: NDArray[np.float64], primitives: NDArray[np.int64]
-) -> FirstHits:
-    """First hits with the tracer's own points and normals; NaN where nothing is hit, so that nobody compares them."""
-    exact = prepare(prepared.scene, FLOAT)
+def _first_hits(scene: Scene, rays: Rays) -> FirstHits:
+    """The tracer's own, in Python floats: one pass does not pay for compiling; NaN where nothing is hit."""
+    exact = prepare(scene, FLOAT)
+    depths, primitives = first_hits(exact)
     position = np.full(rays.origins.shape, np.nan)
     normal = np.full(rays.origins.shape, np.nan)
     for line, column in np.argwhere(primitives != NOTHING).tolist():
         origin = tuple(rays.origins[line, column].tolist())
         direction = tuple(rays.directions[line, column].tolist())
-        point = exact.kernel.along(origin, direction, float(depths[line, column]))
+        point = exact.kernel.along(origin, direction, depths[line, column])
         position[line, column] = point
         normal[line, column] = exact.kernel.surface_normal(exact.data, int(primitives[line, column]), point)
-    return FirstHits(depths, position, normal, primitives)
+    return FirstHits(depths.astype(np.float64), position, normal, primitives)
