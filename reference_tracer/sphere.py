@@ -18,26 +18,32 @@ if TYPE_CHECKING:
 def sphere_distance(origin: Vector, direction: Vector, center: Vector, radius: Scalar) -> Scalar:
     """The smallest positive root t, or infinity where the ray misses; a tangent ray hits.
 
-    The discriminant is taken from the distance between centre and line (Haines, Günther, Akenine-Möller, "Precision
-    Improvements for Ray/Sphere Intersection", Ray Tracing Gems 2019, ch. 7, eq. 5), which does not cancel for far
-    spheres, and the roots from their product, which does not cancel either (ibid., eq. 10 to 12).
+    From outside the discriminant is taken from the distance between centre and line (Haines, Günther, Akenine-Möller,
+    "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems 2019, ch. 7, eq. 5), which does not cancel
+    for far spheres; from inside both terms of the textbook's have one sign. The roots come from their product, which
+    does not cancel either (ibid., eq. 10 to 12).
     """
     to_origin = subtract(origin, center)
     direction_squared = dot(direction, direction)
     half_linear = dot(direction, to_origin)
     constant = dot(to_origin, to_origin) - radius * radius
-    if constant >= 0.0 and half_linear >= 0.0:
-        return inf  # outside, and moving away
-    closest = along(to_origin, direction, -half_linear / direction_squared)
+    if constant < 0.0:  # inside
+        root = sqrt(half_linear * half_linear - direction_squared * constant)
+        if half_linear < 0.0:
+            return (root - half_linear) / direction_squared
+        return -constant / (half_linear + root)
+    if half_linear >= 0.0:
+        return inf  # moving away
+    foot = -half_linear / direction_squared
+    closest = along(to_origin, direction, foot)
     discriminant = direction_squared * (radius * radius - dot(closest, closest))
     if discriminant < 0.0:
         return inf
-    if half_linear < 0.0:
-        larger = sqrt(discriminant) - half_linear
-        if constant > 0.0:
-            return constant / larger
-        return larger / direction_squared
-    return -constant / (half_linear + sqrt(discriminant))
+    larger = sqrt(discriminant) - half_linear
+    if constant > 0.0:
+        # The nearer root lies before the foot; a quotient of two numbers that are nearly zero may not.
+        return min(constant / larger, foot)
+    return larger / direction_squared
 
 
 def distance_to_other_side(origin: Vector, direction: Vector, center: Vector) -> Scalar:

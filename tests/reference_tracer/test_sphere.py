@@ -40,6 +40,17 @@ def test_far_and_small_spheres_are_not_lost_to_cancellation() -> None:
     assert sphere_distance((-(2.0**54), 1.5, 0.0), AHEAD, CENTER, 1.0) == inf
 
 
+def test_a_ray_that_starts_on_a_large_sphere_and_grazes_it_stays_near() -> None:
+    # The origin is on the surface within rounding, and the ray nearly tangent: the true distance is below 0.02. The
+    # quotient of constant and larger root was 2^21, more than the diameter.
+    origin = tuple(map(float.fromhex, ("-0x1.1024830e3c1f9p+18", "-0x1.0d7c27c698895p+18", "-0x1.c129cbb3d3798p+19")))
+    direction = tuple(map(float.fromhex, ("0x1.4eaa1edac12e6p-1", "0x1.4b65758d9e4b7p-1", "-0x1.9198f1d34e37bp-2")))
+    for sign in (1.0, -1.0):
+        turned = (sign * direction[0], sign * direction[1], sign * direction[2])
+        distance = sphere_distance(origin, turned, CENTER, 1e6)  # type: ignore[arg-type] # three numbers
+        assert distance < 0.02 or distance == inf
+
+
 def test_the_other_side_is_the_other_end_of_the_chord() -> None:
     assert distance_to_other_side((-1.0, 0.0, 0.0), AHEAD, CENTER) == 2.0
     assert distance_to_other_side((-1.0, 0.0, 0.0), (2.0, 0.0, 0.0), CENTER) == 1.0
