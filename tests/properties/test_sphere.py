@@ -49,7 +49,7 @@ class Meeting:
         S², a root computed from it has a residual of as much. Where the near root is constant/larger, the constant
         is off by 5 units, which the factor 2·√gap/larger <= 1 does not increase. The last operations, and q, shift t by
         γ(12)·(|t| + |o-c|/|d|), which makes 2·12·r·(2·|o-c| + r) <= 24·S² more. Sum: 62; 80 has room for all squares.
-        Where the quotient would lie behind the foot, the foot is taken, whose residual is -gap: uncertain, so within 33.
+        Where the quotient would lie behind the foot, the foot is taken: its residual is -gap, within 33.
         From inside, t solves the quadratic with a constant off by 5 units and a linear term off by 2·γ(4)·|d|·|o-c|·t
         <= 16 units, and is itself off by γ(12)·t: 5 + 16 + 24.
         """
