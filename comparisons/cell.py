@@ -145,7 +145,8 @@ def _judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
     assert bound is not None, "comparability.py lets no stochastic scene through without a bound"
     unjudged = evidence.feasible.outcomes == 0
     # A sample is rounded as all numbers are; one part in 2^20 is far above a float32 rounding of the largest.
-    most = bound.at_camera * (1 + 2.0**-20)
+    # In the dark every sample is 0, which any bound holds.
+    most = (bound.at_camera or 1.0) * (1 + 2.0**-20)
     low, high = evidence.feasible.hull()
     low = np.where(unjudged[..., np.newaxis], 0.0, np.clip(low, 0.0, most))
     high = np.where(unjudged[..., np.newaxis], most, np.clip(high, 0.0, most))
@@ -162,6 +163,8 @@ def _judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
         ambiguous=int((evidence.feasible.outcomes > 1).sum()),
         worst=worst_pixel(rendering.image, evidence.truth, evidence.feasible, distances),
     )
+    if unjudged.all():
+        return judgement, outcome.test, *verdict_of(judgement), distances
     verdict = Verdict.PASS if outcome.passes else Verdict.FAIL
     probability = f"the least likely mean has p = {outcome.test.smallest_p_value:.2g} after correction"
     limit = f"against a significance of {SIGNIFICANCE:g}"

@@ -55,7 +55,9 @@ def _conserves_energy_and_is_unlit(material: Material) -> bool:
     lit = material.diffuse or material.specular or material.ambient
     amplifies = material.mirror is not None and max(material.mirror.reflectance) > 1
     constants = material.dielectric is not None and material.dielectric.reflectance is not None
-    return not (lit or amplifies or constants or (material.mirror and material.dielectric))
+    # Each of these alone conserves energy; two of them add up.
+    several = [material.mirror, material.dielectric, material.emission].count(None) < 2
+    return not (lit or amplifies or constants or several)
 
 
 def _radiances(scene: Scene) -> Iterator[float]:

@@ -50,13 +50,14 @@ def _departures(relative_offset: float, decisions: Decisions) -> dict[str, Calla
         """From a point that lies an offset δ inside the sphere, |o-c| = r - δ: the positive root of the quadratic.
 
         Its constant term |o-c|² - r² = -2|o-c|δ - δ² is taken from δ: as a difference it would be lost to rounding.
-        δ is computed at the moved origin instead of the point, which changes it by less than δ times itself.
+        δ is computed at the moved origin, whose coordinates differ from the point's by up to δ, so that what is found
+        there is between 1 - ε and 1 + ε times δ, where ε is the relative offset.
         """
         from_center = [o - c for o, c in zip(origin, center, strict=True)]
         half_linear = sum((d * f for d, f in zip(direction, from_center, strict=True)), arb(0))
         if not is_less(half_linear, 0):
             return arb(math.inf)
-        offset = offset_at(origin) * arb(1, relative_offset)
+        offset = offset_at(origin) / arb(1, relative_offset)
         squared = sum((d * d for d in direction), arb(0))
         from_center_length = sum((f * f for f in from_center), arb(0)).sqrt()
         product = (2 * from_center_length + offset) * offset
