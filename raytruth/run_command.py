@@ -35,8 +35,8 @@ FAILED = 1
 
 def run(
     *scenes: str,
-    renderer: Annotated[tuple[str, ...], Parameter(negative="", consume_multiple=True)] = (),
-    require: Annotated[tuple[str, ...], Parameter(negative="", consume_multiple=True)] = (),
+    renderer: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    require: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     out: Path = Path("results"),
     jobs: int | None = None,
     fresh: Annotated[bool, Parameter(negative="")] = False,
@@ -53,7 +53,7 @@ def run(
     scenes
         Names of library scenes, or paths of scene files; the whole library by default.
     renderer
-        Only these renderers; all by default. Names may be separated by commas.
+        Only this renderer; all by default. May be given several times, or several names with commas.
     require
         Renderers that must be available, on pain of exit status 1.
     out

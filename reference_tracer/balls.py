@@ -43,7 +43,8 @@ def ball_arithmetic(
 ) -> Arithmetic:
     """Balls whose midpoints have `precision_bits` bits; sets the precision of this process.
 
-    With the bits of a renderer's number type, the radius of a result bounds what that arithmetic may have done to it.
+    A ball holds what exact arithmetic gives. With the bits of a renderer's number type its radius also follows what
+    that arithmetic may have done to the value, but it is no proof of that: a renderer rounds once more at each step.
     """
     ctx.prec = precision_bits
     unit_roundoff = arb(2) ** -precision_bits
@@ -128,13 +129,13 @@ def comparison_functions(decisions: Decisions) -> dict[str, Callable[[Any, Any],
 
 
 def _floor(x: Any, decisions: Decisions) -> int:
-    """The whole number below x; where x may lie on either side of one, the decisions choose."""
+    """The whole number below x; where that is undecided, one of two in a row, since only its parity is ever used."""
     if not x.is_finite():
         return int(decisions.next())
-    lowest, whole = (int(end.floor().unique_fmpz()) for end in (x.lower(), x.upper()))
-    while whole > lowest and not x >= whole and (x < whole or decisions.next()):
-        whole -= 1
-    return whole
+    lowest, highest = (int(end.floor().unique_fmpz()) for end in (x.lower(), x.upper()))
+    if lowest == highest:
+        return lowest
+    return lowest + int(decisions.next())
 
 
 def _sqrt(x: Any) -> Any:

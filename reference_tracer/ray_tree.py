@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 def radiance(scene: SceneData, origin: Vector, direction: Vector, medium: int, depth: int) -> Vector:
     """What arrives at the origin against a unit direction, in linear RGB."""
-    if MIRRORS or DIELECTRICS:
+    if MIRRORS or DIELECTRICS or ABSORPTION:
         total = (0.0, 0.0, 0.0)
         waiting = [(origin, direction, (1.0, 1.0, 1.0), NOTHING, medium, depth)]
         while len(waiting) > 0:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from reference_tracer.arithmetic import Arithmetic
+    from scenes.lights import Falloff
     from scenes.materials import Checkerboard, Texture
     from scenes.scene import Scene
 
@@ -52,7 +53,10 @@ def build_tables(scene: Scene, features: Collection[str], arithmetic: Arithmetic
     _add_shapes(scene, features, tables)
     _add_local_terms(scene, features, tables)
     if Feature.DIELECTRICS in features:
-        _add_dielectrics(scene, tables)
+        _add_dielectrics(scene, features, tables)
+    if Feature.ABSORPTION in features:
+        dielectrics = (material.dielectric for material in scene.materials.values())
+        tables.add(layout.MATERIAL_ABSORPTION, [(term and term.absorption) or BLACK for term in dielectrics])
     _add_lights(scene, features, tables)
     return _laid_end_to_end(tables, arithmetic)
 
@@ -124,7 +128,9 @@ def triangles_of(scene: Scene) -> tuple[NDArray[np.float64], list[str]]:
 def _add_local_terms(scene: Scene, features: Collection[str], tables: _Tables) -> None:
     materials = list(scene.materials.values())
     boards: list[Checkerboard] = []
-    tables.add_integers(layout.MATERIAL_IS_LIT, [m.diffuse is not None or m.specular is not None for m in materials])
+    if Feature.POINT_LIGHTS in features or Feature.DIRECTIONAL_LIGHTS in features:
+        lit = [material.diffuse is not None or material.specular is not None for material in materials]
+        tables.add_integers(layout.MATERIAL_IS_LIT, lit)
     if Feature.EMISSION in features:
         radiances = [m.emission.radiance if m.emission else BLACK for m in materials]
         _add_textured(radiances, boards, tables, layout.MATERIAL_EMISSION, layout.MATERIAL_EMISSION_BOARD)
@@ -138,7 +144,8 @@ def _add_local_terms(scene: Scene, features: Collection[str], tables: _Tables) -
         speculars = [material.specular for material in materials]
         tables.add(layout.MATERIAL_SPECULAR, [term.reflectance if term else BLACK for term in speculars])
         tables.add(layout.MATERIAL_EXPONENT, [term.exponent if term else 1.0 for term in speculars])
-        tables.add_integers(layout.MATERIAL_IS_BLINN, [bool(term and term.model == "blinn") for term in speculars])
+        if Feature.PHONG in features and Feature.BLINN in features:
+            tables.add_integers(layout.MATERIAL_IS_BLINN, [bool(term and term.model == "blinn") for term in speculars])
     if Feature.MIRRORS in features:
         tables.add(layout.MATERIAL_MIRROR, [m.mirror.reflectance if m.mirror else BLACK for m in materials])
         tables.add_integers(layout.MATERIAL_IS_MIRROR, [m.mirror is not None for m in materials])
@@ -174,7 +181,7 @@ def _add_checkerboards(boards: list[Checkerboard], tables: _Tables) -> None:
     tables.add_integers(layout.CHECKERBOARD_SECOND_AXIS, [CHECKERBOARD_AXES[board.plane][1] for board in boards])
 
 
-def _add_dielectrics(scene: Scene, tables: _Tables) -> None:
+def _add_dielectrics(scene: Scene, features: Collection[str], tables: _Tables) -> None:
     terms = [material.dielectric for material in scene.materials.values()]
     indices = [term.index_of_refraction if term else 1.0 for term in terms]
     outside = [material_number(scene, term.outside if term else None) for term in terms]
@@ -182,10 +189,9 @@ def _add_dielectrics(scene: Scene, tables: _Tables) -> None:
     tables.add(layout.MATERIAL_INDEX, indices)
     tables.add_integers(layout.MATERIAL_OUTSIDE, outside)
     tables.add(layout.MATERIAL_OUTSIDE_INDEX, [indices[row] if row >= 0 else 1.0 for row in outside])
-    tables.add(layout.MATERIAL_ABSORPTION, [(term and term.absorption) or BLACK for term in terms])
-    constant = [bool(term and term.reflectance is not None) for term in terms]
-    tables.add_integers(layout.MATERIAL_HAS_CONSTANT_SPLIT, constant)
-    if any(constant):
+    if Feature.CONSTANT_SPLIT in features:
+        constant = [bool(term and term.reflectance is not None) for term in terms]
+        tables.add_integers(layout.MATERIAL_HAS_CONSTANT_SPLIT, constant)
         tables.add(layout.MATERIAL_REFLECTANCE, [(term and term.reflectance) or BLACK for term in terms])
         tables.add(layout.MATERIAL_TRANSMITTANCE, [(term and term.transmittance) or BLACK for term in terms])
 
@@ -194,14 +200,9 @@ def _add_lights(scene: Scene, features: Collection[str], tables: _Tables) -> Non
     points = [light for light in scene.lights if isinstance(light, PointLight)]
     suns = [light for light in scene.lights if isinstance(light, DirectionalLight)]
     if Feature.POINT_LIGHTS in features:
-        falloffs = [light.falloff for light in points]
-        polynomials = [falloff if isinstance(falloff, PolynomialFalloff) else None for falloff in falloffs]
-        coefficients = [(f.constant, f.linear, f.quadratic) if f else BLACK for f in polynomials]
-        kinds = [FALLOFF_KINDS[falloff] if isinstance(falloff, str) else POLYNOMIAL for falloff in falloffs]
         tables.add(layout.LIGHT_POSITION, [light.position for light in points])
         tables.add(layout.LIGHT_INTENSITY, [light.intensity for light in points])
-        tables.add_integers(layout.LIGHT_FALLOFF, kinds)
-        tables.add(layout.LIGHT_FALLOFF_COEFFICIENTS, coefficients)
+        _add_falloffs([light.falloff for light in points], features, tables)
     if Feature.DIRECTIONAL_LIGHTS in features:
         tables.add(layout.SUN_DIRECTION, [light.direction for light in suns])
         tables.add(layout.SUN_IRRADIANCE, [light.irradiance for light in suns])
@@ -211,6 +212,16 @@ def _add_lights(scene: Scene, features: Collection[str], tables: _Tables) -> Non
             tables.add(layout.BACKGROUND_COLOR, [background.color])
         else:
             tables.add(layout.BACKGROUND_COLOR, [background.bottom, background.top])
+
+
+def _add_falloffs(falloffs: Sequence[Falloff], features: Collection[str], tables: _Tables) -> None:
+    if Feature.INVERSE_SQUARE_FALLOFF in features or Feature.POLYNOMIAL_FALLOFF in features:
+        kinds = [FALLOFF_KINDS[falloff] if isinstance(falloff, str) else POLYNOMIAL for falloff in falloffs]
+        tables.add_integers(layout.LIGHT_FALLOFF, kinds)
+    if Feature.POLYNOMIAL_FALLOFF in features:
+        polynomials = [falloff if isinstance(falloff, PolynomialFalloff) else None for falloff in falloffs]
+        coefficients = [(f.constant, f.linear, f.quadratic) if f else BLACK for f in polynomials]
+        tables.add(layout.LIGHT_FALLOFF_COEFFICIENTS, coefficients)
 
 
 def material_number(scene: Scene, name: str | None) -> int:

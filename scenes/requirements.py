@@ -51,6 +51,7 @@ def required_features(scene: Scene) -> frozenset[Feature]:
             *_shapes(scene),
             *_lights(scene),
             *(feature for material in used_materials(scene) for feature in _material(scene, material)),
+            *_media(scene),
         )
     )
 
@@ -117,7 +118,18 @@ def _material(scene: Scene, material: Material) -> Iterator[Feature]:
         yield Feature.MIRRORS
     if material.dielectric and scene.max_depth > 0:
         yield Feature.DIELECTRICS
-        if material.dielectric.absorption:
-            yield Feature.ABSORPTION
         if material.dielectric.reflectance:
             yield Feature.CONSTANT_SPLIT
+
+
+def _media(scene: Scene) -> Iterator[Feature]:
+    """A medium absorbs if a ray can be in it: the camera's, that of a dielectric object, or the one outside of it."""
+    names = {scene.camera.inside}
+    if scene.max_depth > 0:
+        for shape in scene.objects:
+            dielectric = scene.materials[shape.material].dielectric
+            if dielectric:
+                names |= {shape.material, dielectric.outside}
+    media = (scene.materials[name].dielectric for name in names if name is not None)
+    if any(medium and medium.absorption and any(medium.absorption) for medium in media):
+        yield Feature.ABSORPTION
