@@ -1,0 +1,59 @@
+"""A renderer that does what a test tells it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.error_model import ErrorModel
+from comparisons.renderer import Integrator, Rendering
+from reference_tracer.arithmetic import FLOAT
+from reference_tracer.rendering import render
+from scenes.light_paths import WHITTED
+from scenes.requirements import used_materials
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from comparisons.renderer import Rays
+    from scenes.scene import Scene
+
+
+def truthful(scene: Scene, folder: Path) -> Rendering:
+    """The truth itself, at once."""
+    (folder / "log.txt").write_text("Nothing to say.\n", encoding="utf-8")
+    return Rendering(np.asarray(render(scene, FLOAT), dtype=np.float32), seconds=0.5)
+
+
+@dataclass
+class Pretender:
+    """Obeys comparisons.renderer.Renderer; counts how often it is asked to render."""
+
+    answer: Callable[[Scene, Path], Rendering] = truthful
+    name: str = "pretender"
+    installed: str | None = "pretender 1"
+    refusal: str | None = None
+    integrators: tuple[Integrator, ...] = (Integrator("whitted", WHITTED, has_depth=True),)
+    error_model: ErrorModel = field(default_factory=lambda: ErrorModel("float64", precision_bits=51))
+    install: str = "cannot be installed"
+    calls: int = 0
+
+    def version(self) -> str | None:
+        """As told."""
+        return self.installed
+
+    def refuses(self, scene: Scene) -> str | None:  # noqa: ARG002 - the protocol's signature
+        """As told."""
+        return self.refusal
+
+    def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature
+        """Where there is glass."""
+        return any(material.dielectric for material in used_materials(scene))
+
+    def render(self, scene: Scene, integrator: str, depth: int, rays: Rays, folder: Path) -> Rendering:  # noqa: ARG002 - as above
+        """What the answer gives."""
+        self.calls += 1
+        return self.answer(scene, folder)

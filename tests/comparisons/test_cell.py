@@ -1,0 +1,210 @@
+from __future__ import annotations
+
+import shlex
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from comparisons.cell import CELL_FILE, CellPlace, Evidence, run_cell
+from comparisons.feasible_set import feasible_set
+from comparisons.images import read_image
+from comparisons.renderer import FirstHits, Rays, RendererError, Rendering
+from comparisons.results import Cell, Verdict
+from reference_tracer.arithmetic import FLOAT
+from reference_tracer.rendering import primary_rays, render
+from tests.comparisons.pretending import Pretender, truthful
+from tests.reference_tracer.small_scenes import lamp, small_scene
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from scenes.scene import Scene
+
+PLACE = CellPlace("small", "pretender", "whitted", key="abc", source="small")
+GLASS = {"white": {"dielectric": {"index_of_refraction": 1.5}}}
+SIZE: dict[str, Any] = {"width": 6, "height": 4, "extent": 3.0}
+# Brighter overhead than anything in the picture, so that right means are not at their bound.
+SKY = {"bottom": (0.2, 0.2, 0.2), "top": (0.9, 0.9, 0.9)}
+
+
+@cache
+def evidence(kind: str = "lit") -> Evidence:
+    kinds: dict[str, dict[str, Any]] = {
+        "lit": {"lights": [lamp((1.0, 2.0, 3.0))]},
+        "glass": {"materials": GLASS, "background": SKY, "max_depth": 2},
+        "dark glass": {"materials": GLASS, "max_depth": 2},
+    }
+    scene = small_scene(**SIZE, **kinds[kind])
+    truth = np.asarray(render(scene, FLOAT), dtype=np.float64)
+    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible_set(scene, Pretender().error_model))
+
+
+def cell_of(
+    folder: Path, answer: Callable[[Scene, Path], Rendering] = truthful, kind: str = "lit", place: CellPlace = PLACE
+) -> Cell:
+    return run_cell(place, Pretender(answer), 1, evidence(kind), folder)
+
+
+def files(folder: Path) -> set[str]:
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_a_right_image_passes_and_everything_lies_in_the_cells_folder(tmp_path: Path) -> None:
+    cell = cell_of(tmp_path)
+    assert cell.verdict == Verdict.PASS
+    assert (cell.seconds, cell.version, cell.key) == (0.5, "pretender 1", "abc")
+    assert cell.largest_error is not None
+    assert cell.largest_error <= 2.0**-25  # half an ulp of a float32 below 1
+    folder = "cells/small/pretender-whitted"
+    assert files(tmp_path) == {f"{folder}/{name}" for name in (CELL_FILE, "log.txt", "render.exr", "tolerances.exr")}
+    assert Cell.model_validate_json((tmp_path / folder / CELL_FILE).read_text()) == cell
+    assert cell.images is not None
+    np.testing.assert_array_equal(read_image(tmp_path / cell.images.render), evidence().truth.astype(np.float32))
+    assert read_image(tmp_path / cell.images.tolerances).max() <= 1
+    assert cell.images.truth == "cells/small/truth.exr"
+    assert (tmp_path / folder).stat().st_mode & 0o777 == 0o755  # others may read it
+
+
+def failing(_scene: Scene, folder: Path) -> Rendering:
+    (folder / "log.txt").write_text("Illegal instruction\n", encoding="utf-8")
+    raise RendererError("it ended with signal 4")
+
+
+def test_a_renderer_that_fails_gives_an_error_cell_with_its_log(tmp_path: Path) -> None:
+    cell = cell_of(tmp_path, failing)
+    assert (cell.verdict, cell.reason) == (Verdict.ERROR, "it ended with signal 4")
+    assert cell.log == "cells/small/pretender-whitted/log.txt"
+    assert (tmp_path / cell.log).read_text() == "Illegal instruction\n"
+    assert cell.images is None
+    assert files(tmp_path) == {f"cells/small/pretender-whitted/{name}" for name in (CELL_FILE, "log.txt")}
+
+
+def test_an_error_without_a_log_names_none(tmp_path: Path) -> None:
+    def silent(_scene: Scene, _folder: Path) -> Rendering:
+        raise RendererError("it did not start")
+
+    assert cell_of(tmp_path, silent).log is None
+
+
+@pytest.mark.parametrize("shape", [(4, 5, 3), (6, 4, 3), (4, 6), (4, 6, 4)])
+def test_an_image_of_another_size_is_an_error(shape: tuple[int, ...], tmp_path: Path) -> None:
+    cell = cell_of(tmp_path, lambda *_: Rendering(np.zeros(shape, dtype=np.float32), 0.0))
+    assert cell.verdict == Verdict.ERROR
+    assert str(shape) in cell.reason
+    assert "(4, 6, 3)" in cell.reason
+
+
+def test_an_image_of_what_is_no_number_fails_and_can_be_read_back(tmp_path: Path) -> None:
+    cell = cell_of(tmp_path, lambda *_: Rendering(np.full((4, 6, 3), np.nan, dtype=np.float32), 0.0))
+    assert cell.verdict == Verdict.FAIL
+    assert cell.judgement is not None
+    assert cell.judgement.failing == 24
+    text = (tmp_path / PLACE.folder / CELL_FILE).read_text()
+    assert Cell.model_validate_json(text).model_dump_json() == cell.model_dump_json()
+
+
+def test_one_wrong_pixel_fails(tmp_path: Path) -> None:
+    def wrong(scene: Scene, folder: Path) -> Rendering:
+        image = truthful(scene, folder).image
+        image[1, 2, 1] += np.float32(0.01)
+        return Rendering(image, 0.0)
+
+    cell = cell_of(tmp_path, wrong)
+    assert cell.verdict == Verdict.FAIL
+    assert cell.judgement is not None
+    assert cell.judgement.worst is not None
+    assert (cell.judgement.failing, cell.judgement.worst.x, cell.judgement.worst.y) == (1, 2, 1)
+
+
+def test_wrong_first_hits_fail_a_right_image(tmp_path: Path) -> None:
+    def confused(scene: Scene, folder: Path) -> Rendering:
+        nothing = np.full((4, 6), -1)
+        nowhere = np.full((4, 6, 3), np.nan)
+        hits = FirstHits(np.full((4, 6), np.inf), nowhere, nowhere, nothing)
+        return Rendering(truthful(scene, folder).image, 0.0, hits)
+
+    cell = cell_of(tmp_path, confused)
+    assert cell.verdict == Verdict.FAIL
+    assert cell.first_hits is not None
+    assert cell.first_hits.failing > 0
+    assert cell.reason.startswith(f"{cell.first_hits.failing} first hits")
+
+
+def test_the_folder_is_replaced_whole(tmp_path: Path) -> None:
+    cell_of(tmp_path)
+    (tmp_path / PLACE.folder / "stale.txt").write_text("old")
+    cell_of(tmp_path, failing)
+    assert {path.name for path in (tmp_path / PLACE.folder).iterdir()} == {CELL_FILE, "log.txt"}
+    assert [path.name for path in (tmp_path / "cells/small").iterdir()] == ["pretender-whitted"]
+
+
+@pytest.mark.parametrize("unexpected", [ZeroDivisionError, KeyboardInterrupt, MemoryError])
+def test_what_nobody_expects_leaves_the_earlier_cell_and_nothing_else(
+    unexpected: type[BaseException], tmp_path: Path
+) -> None:
+    earlier = cell_of(tmp_path)
+
+    def surprising(_scene: Scene, folder: Path) -> Rendering:
+        (folder / "half.exr").write_text("half")
+        raise unexpected
+
+    with pytest.raises(unexpected):
+        cell_of(tmp_path, surprising)
+    assert [path.name for path in (tmp_path / "cells/small").iterdir()] == ["pretender-whitted"]
+    assert Cell.model_validate_json((tmp_path / PLACE.folder / CELL_FILE).read_text()) == earlier
+
+
+def noisy(offset: float, kind: str) -> Callable[[Scene, Path], Rendering]:
+    """Batches of many samples of which the mean is off by a part of the truth."""
+
+    def answer(_scene: Scene, _folder: Path) -> Rendering:
+        mean = evidence(kind).truth * (1 + offset)
+        batches = np.stack([mean * factor for factor in (0.99, 1.01) * 8]).astype(np.float32)
+        return Rendering(mean.astype(np.float32), 1.0, samples=16 * 10_000, batch_means=batches)
+
+    return answer
+
+
+def test_a_noisy_mean_is_tested_and_its_variance_kept(tmp_path: Path) -> None:
+    right = cell_of(tmp_path, noisy(0.0, "glass"), "glass")
+    assert right.verdict == Verdict.PASS, right.reason
+    assert right.stochastic is not None
+    assert (right.stochastic.samples, right.stochastic.batches) == (160_000, 16)
+    assert right.images is not None
+    assert right.images.variance is not None
+    assert read_image(tmp_path / right.images.variance).max() > 0
+    wrong = cell_of(tmp_path, noisy(-0.1, "glass"), "glass")
+    assert wrong.verdict == Verdict.FAIL
+    assert wrong.judgement is not None
+    assert wrong.judgement.failing > 0
+
+
+def test_glass_in_the_dark_is_black(tmp_path: Path) -> None:
+    assert cell_of(tmp_path, noisy(0.0, "dark glass"), "dark glass").verdict == Verdict.PASS
+
+    def bright(_scene: Scene, _folder: Path) -> Rendering:
+        image = np.full((4, 6, 3), 0.5, dtype=np.float32)
+        return Rendering(image, 1.0, samples=160, batch_means=np.stack([image] * 4))
+
+    assert cell_of(tmp_path, bright, "dark glass").verdict == Verdict.FAIL
+
+
+def test_a_noisy_image_of_which_nothing_can_be_judged_fails(tmp_path: Path) -> None:
+    whole = evidence("glass")
+    nowhere = np.full_like(whole.feasible.low, np.nan)
+    blind = type(whole.feasible)(
+        nowhere, nowhere, whole.feasible.hit_primitives, whole.feasible.hit_low, whole.feasible.hit_high
+    )
+    unjudged = Evidence(whole.scene, whole.truth, whole.rays, blind)
+    cell = run_cell(PLACE, Pretender(noisy(0.0, "glass")), 1, unjudged, tmp_path)
+    assert cell.verdict == Verdict.FAIL
+    assert "no pixel could be judged" in cell.reason
+
+
+@pytest.mark.parametrize("source", ["small", "my scenes/it's; rm -rf $HOME.json", "a\nb.json"])
+def test_the_command_repeats_the_cell_whatever_the_path(source: str, tmp_path: Path) -> None:
+    cell = cell_of(tmp_path, place=CellPlace("small", "pretender", "whitted", "", source))
+    assert shlex.split(cell.command) == ["raytruth", "run", source, "--renderer", "pretender", "--fresh"]

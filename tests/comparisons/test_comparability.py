@@ -1,0 +1,64 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from comparisons.comparability import depth_or_reason
+from comparisons.renderers.closed_form import ClosedFormRenderer
+from comparisons.renderers.mitsuba import mitsuba_scalar
+from comparisons.renderers.reference import ReferenceTracer
+from scenes.library import library_names, open_scene
+from tests.comparisons.pretending import Pretender
+from tests.scenes.exporter_scenes import BALL, GLASS, MIRROR, POINT, RED, build
+
+if TYPE_CHECKING:
+    from comparisons.renderer import Integrator
+
+DIRECT, PATH = mitsuba_scalar().integrators
+GREY = {"color": (0.5, 0.5, 0.5)}
+
+
+def mitsuba(integrator: Integrator, **changes: Any) -> int | str:
+    return depth_or_reason(build(**changes), mitsuba_scalar(), integrator)
+
+
+def test_the_depth_is_that_of_the_light_paths() -> None:
+    assert mitsuba(DIRECT, lights=[POINT]) == 0
+    assert mitsuba(PATH, lights=[POINT]) == 1
+    assert mitsuba(PATH, materials={"m": MIRROR}, background=GREY, max_depth=3) == 1
+
+
+def test_a_difference_of_light_paths_is_the_reason() -> None:
+    assert "EDe" in str(mitsuba(DIRECT, lights=[POINT], background=GREY))
+
+
+def test_what_a_renderer_refuses_comes_before_light_paths() -> None:
+    two = build(lights=[POINT], background=GREY, objects=[BALL, BALL])
+    assert "2 primitives" in str(depth_or_reason(two, ClosedFormRenderer(), ClosedFormRenderer.integrators[0]))
+
+
+def test_noisy_scenes_need_a_bound() -> None:
+    whitted = Pretender().integrators[0]
+    amplifier = {"mirror": {"reflectance": (2.0, 2.0, 2.0)}}
+    objects = [BALL, BALL | {"center": (5.0, 0.0, 0.0), "material": "other"}]
+    for materials, is_comparable in [
+        ({"m": GLASS, "other": MIRROR}, True),
+        ({"m": GLASS, "other": amplifier}, False),
+        ({"m": MIRROR, "other": amplifier}, True),  # nothing random, and no bound is needed
+    ]:
+        scene = build(materials=materials, objects=objects, background=GREY, max_depth=2)
+        result = depth_or_reason(scene, Pretender(), whitted)
+        assert (result == 2) if is_comparable else "no known bound" in str(result)
+
+
+def test_the_reference_tracer_can_be_held_against_the_truth_of_every_scene() -> None:
+    for name in library_names():
+        scene = open_scene(name)
+        depth = depth_or_reason(scene, ReferenceTracer(), ReferenceTracer.integrators[0])
+        assert isinstance(depth, int), name
+        assert depth <= scene.max_depth
+
+
+def test_a_diffuse_surface_that_mirrors_is_not_what_path_tracers_compute() -> None:
+    assert isinstance(
+        mitsuba(PATH, materials={"m": RED | MIRROR}, objects=[BALL, BALL], lights=[POINT], max_depth=1), str
+    )
