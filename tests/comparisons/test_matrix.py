@@ -1,0 +1,219 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Generator
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from comparisons import matrix
+from comparisons.cell import CELL_FILE
+from comparisons.feasible_set import feasible_set
+from comparisons.images import read_image
+from comparisons.matrix import Plan, plan_run, run_plan, run_scene
+from comparisons.renderer import RendererError
+from comparisons.results import Cell, Verdict
+from tests.comparisons.pretending import Pretender, truthful
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from comparisons.error_model import ErrorModel
+    from comparisons.feasible_set import FeasibleSet
+    from comparisons.renderer import Rendering
+    from scenes.scene import Scene
+
+BALL = {"shape": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}
+SCENE: dict[str, Any] = {
+    "purpose": "Small.",
+    "convention": "whitted",
+    "camera": {
+        "projection": "orthographic",
+        "position": [0.1, 0.2, 5],
+        "look_at": [0, 0, 0],
+        "width": 4,
+        "height": 3,
+        "view_height": 3,
+    },
+    "lights": [{"kind": "point", "position": [1, 2, 3], "intensity": [1, 1, 1], "falloff": "none"}],
+    "materials": {"m": {"diffuse": {"reflectance": [1, 0.5, 0.25]}}},
+    "objects": [BALL],
+}
+
+
+def scene_file(folder: Path, name: str = "small", **changes: Any) -> str:
+    path = folder / f"{name}.json"
+    path.write_text(json.dumps(SCENE | changes), encoding="utf-8")
+    return str(path)
+
+
+@pytest.fixture
+def pretender(monkeypatch: pytest.MonkeyPatch) -> Pretender:
+    """The one renderer there is; scenes are rendered in this process, where it can be counted."""
+    renderer = Pretender()
+    monkeypatch.setattr(matrix, "all_renderers", lambda: {"pretender": renderer})
+    monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, _context: ThreadPoolExecutor(jobs))
+    return renderer
+
+
+def plan(sources: list[str], out: Path, *, fresh: bool = False) -> Plan:
+    return plan_run(sources, ["pretender"], out, fresh=fresh)
+
+
+def ran(sources: list[str], out: Path, *, fresh: bool = False) -> list[Cell]:
+    """The cells of a whole run."""
+    planned = plan(sources, out, fresh=fresh)
+    return [*planned.settled, *run_plan(planned, out, jobs=1)]
+
+
+def test_a_scene_is_rendered_judged_and_its_truth_written(pretender: Pretender, tmp_path: Path) -> None:
+    source = scene_file(tmp_path)
+    (cell,) = ran([source], tmp_path / "out")
+    assert (cell.scene, cell.renderer, cell.integrator, cell.verdict) == ("small", "pretender", "whitted", Verdict.PASS)
+    assert cell.images is not None
+    assert read_image(tmp_path / "out" / cell.images.truth).shape == (3, 4, 3)
+    assert source in cell.command
+    assert pretender.calls == 1
+
+
+def test_what_is_not_installed_is_unavailable_with_how_to_install_it(pretender: Pretender, tmp_path: Path) -> None:
+    pretender.installed = None
+    planned = plan([scene_file(tmp_path)], tmp_path / "out")
+    assert planned.by_scene == {}
+    (cell,) = planned.settled
+    assert cell.verdict == Verdict.UNAVAILABLE
+    assert "cannot be installed" in cell.reason
+
+
+def test_what_cannot_be_compared_is_settled_with_the_reason(pretender: Pretender, tmp_path: Path) -> None:
+    pretender.refusal = "it has no taste for spheres"
+    planned = plan([scene_file(tmp_path)], tmp_path / "out")
+    assert planned.by_scene == {}
+    assert [(cell.verdict, cell.reason) for cell in planned.settled] == [
+        (Verdict.INCOMPARABLE, "it has no taste for spheres")
+    ]
+
+
+def test_a_second_run_has_nothing_to_do_and_tells_the_same(pretender: Pretender, tmp_path: Path) -> None:
+    source, out = scene_file(tmp_path), tmp_path / "out"
+    first = ran([source], out)
+    assert plan([source], out).by_scene == {}
+    assert ran([source], out) == first
+    assert pretender.calls == 1
+
+
+def test_fresh_renders_again(pretender: Pretender, tmp_path: Path) -> None:
+    source, out = scene_file(tmp_path), tmp_path / "out"
+    ran([source], out)
+    ran([source], out, fresh=True)
+    assert pretender.calls == 2
+
+
+def test_another_version_or_scene_or_code_of_ours_is_rendered_again(
+    pretender: Pretender, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source, out = scene_file(tmp_path), tmp_path / "out"
+    ran([source], out)
+    pretender.installed = "pretender 2"
+    assert ran([source], out)[0].version == "pretender 2"
+    assert pretender.calls == 2
+    scene_file(tmp_path, materials={"m": {"diffuse": {"reflectance": [1, 0.5, 0.5]}}})
+    ran([source], out)
+    assert pretender.calls == 3
+    monkeypatch.setattr(matrix, "_source_digest", lambda: "another")
+    ran([source], out)
+    assert pretender.calls == 4
+    ran([source], out)
+    assert pretender.calls == 4
+
+
+def test_an_error_is_tried_again_and_a_failure_is_not(pretender: Pretender, tmp_path: Path) -> None:
+    def failing(_scene: Scene, _folder: Path) -> Rendering:
+        raise RendererError("the machine was busy")
+
+    def black(scene: Scene, folder: Path) -> Rendering:
+        rendering = truthful(scene, folder)
+        rendering.image[...] = 0
+        return rendering
+
+    source, out = scene_file(tmp_path), tmp_path / "out"
+    for answer, verdict in [(failing, Verdict.ERROR), (black, Verdict.FAIL), (truthful, Verdict.FAIL)]:
+        pretender.answer = answer
+        assert ran([source], out)[0].verdict == verdict
+    assert pretender.calls == 2
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"scene": "small"}', "null"])
+def test_a_broken_cell_of_an_earlier_run_is_ignored(text: str, pretender: Pretender, tmp_path: Path) -> None:
+    source, out = scene_file(tmp_path), tmp_path / "out"
+    ran([source], out)
+    path = out / "cells/small/pretender-whitted" / CELL_FILE
+    path.write_text(text)
+    assert ran([source], out)[0].verdict == Verdict.PASS
+    assert pretender.calls == 2
+    assert Cell.model_validate_json(path.read_text()).verdict == Verdict.PASS
+
+
+def test_a_scene_in_which_we_fail_ourselves_is_an_error_and_the_others_go_on(
+    pretender: Pretender, tmp_path: Path
+) -> None:
+    def sometimes(scene: Scene, folder: Path) -> Rendering:
+        if scene.name == "bad":
+            raise ZeroDivisionError("float division by zero")
+        return truthful(scene, folder)
+
+    pretender.answer = sometimes
+    sources = [scene_file(tmp_path, name) for name in ("bad", "good", "better")]
+    out = tmp_path / "out"
+    cells = {cell.scene: cell for cell in ran(sources, out)}
+    assert {name: cell.verdict for name, cell in cells.items()} == {
+        "bad": Verdict.ERROR,
+        "good": Verdict.PASS,
+        "better": Verdict.PASS,
+    }
+    assert "ZeroDivisionError: float division by zero" in cells["bad"].reason
+    assert not (out / cells["bad"].scene / CELL_FILE).exists()
+    assert set(plan(sources, out).by_scene) == {sources[0]}
+
+
+def test_when_the_caller_stops_what_is_finished_stays(pretender: Pretender, tmp_path: Path) -> None:
+    sources = [scene_file(tmp_path, name) for name in "abcdef"]
+    out = tmp_path / "out"
+    cells = run_plan(plan(sources, out), out, jobs=1)
+    first = next(cells)
+    assert isinstance(cells, Generator)
+    cells.close()
+    assert pretender.calls < len(sources)
+    left = plan(sources, out)
+    assert first in left.settled
+    assert len(left.settled) == pretender.calls
+    assert len(left.by_scene) == len(sources) - pretender.calls
+    assert len(ran(sources, out)) == len(sources)
+    assert pretender.calls == len(sources)
+
+
+def test_the_feasible_set_is_made_once_for_renderers_of_one_error_model(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = []
+
+    def recorded(scene: Scene, model: ErrorModel) -> FeasibleSet:
+        made.append(model)
+        return feasible_set(scene, model)
+
+    monkeypatch.setattr(matrix, "feasible_set", recorded)
+    renderers = {"one": Pretender(name="one"), "two": Pretender(name="two")}
+    monkeypatch.setattr(matrix, "all_renderers", lambda: renderers)
+    source, out = scene_file(tmp_path), tmp_path / "out"
+    planned = plan_run([source], ["one", "two"], out, fresh=False)
+    assert [cell.verdict for cell in run_scene(source, planned.by_scene[source], out)] == [Verdict.PASS] * 2
+    assert made == [Pretender().error_model]
+
+
+def test_scenes_run_in_processes_of_their_own(tmp_path: Path) -> None:
+    sources = [scene_file(tmp_path, name) for name in ("one", "two")]
+    out = tmp_path / "out"
+    planned = plan_run(sources, ["closed_form"], out, fresh=False)
+    cells = list(run_plan(planned, out, jobs=2))
+    assert sorted((cell.scene, cell.verdict) for cell in cells) == [("one", Verdict.PASS), ("two", Verdict.PASS)]
