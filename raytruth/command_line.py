@@ -61,7 +61,13 @@ COMMANDS = {
 
 def make_app() -> App:
     """All commands."""
-    app = App(name="raytruth", help=HELP, version=lambda: version("raytruth"), help_format="markdown")
+    app = App(
+        name="raytruth",
+        help=HELP,
+        version=lambda: version("raytruth"),
+        help_format="markdown",
+        suppress_keyboard_interrupt=False,  # `main` says that it was interrupted
+    )
     for name, (place, summary, more) in COMMANDS.items():
         app.command(place, name=name, help=f"{summary}\n\n{more}")
     return app

@@ -130,7 +130,9 @@ def with_images(folder: Path, name: str, offset: float) -> Cell:
     """A cell whose image is off by this much everywhere."""
     cells = folder / "cells" / name / "pretender-whitted"
     cells.mkdir(parents=True)
-    truth = (np.arange(16 * 16 * 3, dtype=np.float32) / 1024).reshape(16, 16, 3)  # exact, with the offset, too
+    truth = (np.arange(16 * 16 * 3, dtype=np.float32) / np.float32(1024)).reshape(
+        16, 16, 3
+    )  # exact, with the offset, too
     write_image(folder / f"cells/{name}/truth.exr", truth)
     write_image(cells / "render.exr", truth + np.float32(offset))
     images = Images(

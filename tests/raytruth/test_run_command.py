@@ -1,0 +1,234 @@
+from __future__ import annotations
+
+import json
+import signal
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from comparisons import matrix
+from comparisons.renderer import RendererError
+from comparisons.renderers import catalogue
+from comparisons.results import RESULTS_FILE, Results
+from tests.comparisons.pretending import Pretender, truthful
+from tests.raytruth.running import document, refusal, run
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from comparisons.renderer import Rendering
+    from scenes.scene import Scene
+
+SCENE: dict[str, Any] = {
+    "purpose": "Small.",
+    "convention": "whitted",
+    "camera": {
+        "projection": "orthographic",
+        "position": [0.1, 0.2, 5],
+        "look_at": [0, 0, 0],
+        "width": 16,
+        "height": 12,
+        "view_height": 3,
+    },
+    "lights": [{"kind": "point", "position": [1, 2, 3], "intensity": [1, 1, 1], "falloff": "none"}],
+    "materials": {"m": {"diffuse": {"reflectance": [1, 0.5, 0.25]}}},
+    "objects": [{"shape": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}],
+}
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working directory, with a tiny scene in it; scenes are rendered in this process."""
+    monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, _context: ThreadPoolExecutor(jobs))
+    monkeypatch.chdir(tmp_path)
+    scene_file(tmp_path / "small.json")
+    return tmp_path
+
+
+@pytest.fixture
+def pretender(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Pretender:  # noqa: ARG001 - its working directory is needed
+    """One renderer that is here, and one that is not."""
+    renderer = Pretender()
+    known = {"pretender": renderer, "ghost": Pretender(name="ghost", installed=None, install="pip install ghost")}
+    for module in (matrix, catalogue):
+        monkeypatch.setattr(module, "all_renderers", lambda: known)
+    return renderer
+
+
+def scene_file(path: Path) -> str:
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(json.dumps(SCENE), encoding="utf-8")
+    return str(path)
+
+
+def black(scene: Scene, folder: Path) -> Rendering:
+    rendering = truthful(scene, folder)
+    rendering.image[...] = 0
+    return rendering
+
+
+def broken(_scene: Scene, _folder: Path) -> Rendering:
+    raise RendererError("it ended with signal 11")
+
+
+def results_in(directory: Path) -> Results:
+    return Results.model_validate_json((directory / RESULTS_FILE).read_text(encoding="utf-8"))
+
+
+def test_a_run_whose_cells_all_pass_ends_with_0_and_a_report(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, err = run(capsys, "run", "small.json", "--renderer", "closed_form")
+    assert status == 0
+    assert "small" in out
+    assert "[1/1] small closed_form local: pass" in err
+    assert [cell.verdict for cell in results_in(folder / "results").cells] == ["pass"]
+    assert list((folder / "results").glob("*.html"))
+
+
+@pytest.mark.parametrize(("answer", "verdict"), [(black, "fail"), (broken, "error")])
+def test_a_cell_that_fails_or_errs_gives_1(
+    answer: Any, verdict: str, pretender: Pretender, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pretender.answer = answer
+    status, out, err = run(capsys, "run", "small.json", "--renderer", "pretender")
+    assert status == 1
+    assert verdict in err
+    assert "Traceback" not in out + err
+
+
+def test_a_failure_is_not_forgotten_by_the_next_run(pretender: Pretender, capsys: pytest.CaptureFixture[str]) -> None:
+    pretender.answer = black
+    for _ in range(2):
+        assert run(capsys, "run", "small.json", "--renderer", "pretender")[0] == 1
+    assert pretender.calls == 1
+    pretender.answer = truthful
+    assert run(capsys, "run", "small.json", "--renderer", "pretender", "--fresh")[0] == 0
+
+
+def test_what_is_unavailable_or_incomparable_is_shown_and_fails_nothing(
+    pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pretender.refusal = "it has no taste for spheres"
+    assert run(capsys, "run", "small.json")[0] == 0
+    assert {cell.renderer: cell.verdict for cell in results_in(folder / "results").cells} == {
+        "pretender": "incomparable",
+        "ghost": "unavailable",
+    }
+
+
+def test_a_required_renderer_that_is_missing_gives_1_and_says_how_to_install_it(
+    pretender: Pretender, capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, _, err = run(capsys, "run", "small.json", "--renderer", "pretender", "--require", "ghost")
+    assert status == 1
+    assert "ghost is required and not installed: pip install ghost" in err
+    assert pretender.calls == 1
+    status, _, err = run(capsys, "run", "small.json", "--require", "pretender")
+    assert status == 0
+    assert "required" not in err
+
+
+def test_names_of_renderers_may_be_separated_by_commas(
+    pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(capsys, "run", "small.json", "--renderer", "pretender, ghost", "--out", "there")[0] == 0
+    assert {cell.renderer for cell in results_in(folder / "there").cells} == {pretender.name, "ghost"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["--renderer", "mitsuva"], "There is no renderer 'mitsuva': did you mean 'mitsuba'"),
+        (["--require", "povary"], "There is no renderer 'povary'"),
+        (["singel-sphere"], "did you mean 'single-sphere'"),
+        (["missing.json"], "missing.json"),
+        (["small.json", "elsewhere/small.json"], "two scenes called 'small'"),
+        (["small.json", "small.json"], "two scenes called 'small'"),
+        (["--jobs", "0"], "--jobs: expected 1 or more, found 0"),
+        (["--jobs", "-3"], "--jobs: expected 1 or more, found -3"),
+        (["--jobs", "many"], "into int"),
+        (["--nonsense"], "--nonsense"),
+    ],
+)
+def test_bad_usage_is_one_sentence_before_any_work(
+    arguments: list[str], expected: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene_file(folder / "elsewhere/small.json")
+    assert expected in refusal(capsys, "run", *arguments)
+    assert not (folder / "results").exists()
+
+
+def test_a_file_in_the_place_of_the_results_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "results").write_text("mine")
+    status, _, err = run(capsys, "run", "small.json", "--renderer", "closed_form")
+    assert status != 0
+    assert "Traceback" not in err
+    assert (folder / "results").read_text() == "mine"
+
+
+def test_json_is_one_document_that_follows_the_format(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    told = document(capsys, "run", "small.json", "--renderer", "closed_form")
+    assert next(iter(told)) == "schema_version"
+    assert told["schema_version"] == 1
+    (cell,) = told["cells"]
+    assert (cell["scene"], cell["renderer"], cell["integrator"], cell["verdict"]) == (
+        "small",
+        "closed_form",
+        "local",
+        "pass",
+    )
+    assert cell["metrics"]["rmse"] is not None
+    assert Results.model_validate(told) == results_in(folder / "results")
+
+
+def test_json_of_what_is_no_number_is_still_json(pretender: Pretender, capsys: pytest.CaptureFixture[str]) -> None:
+    def nothing(scene: Scene, folder: Path) -> Rendering:
+        rendering = truthful(scene, folder)
+        rendering.image[...] = np.nan
+        return rendering
+
+    pretender.answer = nothing
+    status, out, _ = run(capsys, "run", "small.json", "--renderer", "pretender", "--json")
+    assert status == 1
+    (cell,) = json.loads(out, parse_constant=pytest.fail)["cells"]
+    assert cell["largest_error"] == "NaN"
+
+
+def test_runs_into_one_directory_add_up(pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene_file(folder / "other.json")
+    for scene in ("small.json", "other.json"):
+        assert run(capsys, "run", scene, "--renderer", "pretender")[0] == 0
+    assert [cell.scene for cell in results_in(folder / "results").cells] == ["other", "small"]
+    assert pretender.calls == 2
+
+
+def test_an_interrupted_run_can_be_resumed(
+    pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    names = ("a", "b", "c")
+    sources = [scene_file(folder / f"{name}.json") for name in names]
+    assert run(capsys, "run", sources[0], "--renderer", "pretender")[0] == 0
+    before = results_in(folder / "results")
+
+    def interrupted(scene: Scene, folder: Path) -> Rendering:
+        ident = threading.main_thread().ident
+        assert ident is not None
+        signal.pthread_kill(ident, signal.SIGINT)  # as Ctrl-C does
+        return truthful(scene, folder)
+
+    pretender.answer = interrupted
+    status, out, err = run(capsys, "run", *sources, "--renderer", "pretender", "--jobs", "1")
+    assert status == 130
+    assert "interrupted" in err
+    assert "Traceback" not in out + err
+    # What was there is still valid, what was begun is finished, and nothing else is left.
+    assert results_in(folder / "results") == before
+    kept = {path.parent.parent.name for path in (folder / "results").rglob("cell.json")}
+    assert {"a", "b"} <= kept
+    assert not list((folder / "results").rglob(".*"))
+    pretender.answer = truthful
+    assert run(capsys, "run", *sources, "--renderer", "pretender")[0] == 0
+    assert pretender.calls == len(names)  # each scene was rendered once in all three runs
+    assert [cell.scene for cell in results_in(folder / "results").cells] == list(names)
