@@ -13,6 +13,7 @@ from comparisons import matrix
 from comparisons.renderer import RendererError
 from comparisons.renderers import catalogue
 from comparisons.results import RESULTS_FILE, Results
+from raytruth import run_command
 from tests.comparisons.pretending import Pretender, truthful
 from tests.raytruth.running import document, refusal, run
 
@@ -55,6 +56,8 @@ def pretender(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Pretender:  # no
     known = {"pretender": renderer, "ghost": Pretender(name="ghost", installed=None, install="pip install ghost")}
     for module in (matrix, catalogue):
         monkeypatch.setattr(module, "all_renderers", lambda: known)
+    # Global metrics are measured in the tests of closed_form; each process that measures them takes a second to start.
+    monkeypatch.setattr(run_command, "with_metrics", lambda _out, cells: cells)
     return renderer
 
 
