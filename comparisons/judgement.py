@@ -56,7 +56,7 @@ def verdict_of(judgement: Judgement) -> tuple[Verdict, str]:
 
 
 def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet) -> float:
-    """The largest absolute difference of a channel: from the truth, or from the nearest of several outcomes."""
+    """The largest absolute difference of a channel over the judged pixels: from the truth, or the nearest outcome."""
     value = np.asarray(image, dtype=np.float64)
     from_truth = np.abs(value - truth)
     middles = 0.5 * (feasible.low + feasible.high)
@@ -64,7 +64,8 @@ def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasib
     place = np.argmin(_filled(from_outcomes.max(axis=3)), axis=2)
     nearest = np.take_along_axis(from_outcomes, place[:, :, np.newaxis, np.newaxis], axis=2)[:, :, 0]
     ambiguous = (feasible.outcomes > 1)[:, :, np.newaxis]
-    return float(np.where(ambiguous, np.minimum(nearest, from_truth), from_truth).max())
+    errors = np.where(ambiguous, np.minimum(nearest, from_truth), from_truth)
+    return float(errors[feasible.outcomes > 0].max(initial=0.0))
 
 
 def judge_first_hits(hits: FirstHits, feasible: FeasibleSet) -> FirstHitComparison:

@@ -84,7 +84,7 @@ class StochasticTest(Record):
 
 
 class FirstHitComparison(Record):
-    """The first hits of the very same rays, over pixels whose primitive is certain."""
+    """The first hits of the very same rays; the largest errors are over pixels whose primitive is certain."""
 
     compared: int
     primitive_mismatches: int
@@ -115,6 +115,7 @@ class Cell(Record):
     verdict: Verdict
     reason: str
     largest_error: float | None = None
+    """Over the judged pixels: from the truth, or from the nearest outcome where there are several."""
     seconds: float | None = None
     """Wall-clock time of the renderer alone, without its start."""
     version: str | None = None

@@ -10,17 +10,17 @@ hold the same paths among those that the scene can have, which follow from which
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+import regex
 
 from scenes.lights import ConstantBackground
 from scenes.shapes import Mesh, Sphere, Triangle
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
@@ -59,8 +59,14 @@ def comparable_depth(scene: Scene, light_paths: str, has_depth: bool) -> int | s
 
 def _first_difference(graph: _Graph, truth: str, other: str, longest: int) -> str | None:
     """A sentence on the shortest path of the scene that only one of the classes holds; None if there is none."""
-    for path in graph.paths(longest):
-        in_truth, in_other = (re.fullmatch(pattern, path) is not None for pattern in (truth, other))
+    classes = (truth, other)
+
+    def may_go_on(beginning: str) -> bool:
+        """Whether a path of either class begins like this: without such a limit there were 2^longest to look at."""
+        return any(regex.fullmatch(pattern, beginning, partial=True) for pattern in classes)
+
+    for path in graph.paths(longest, may_go_on):
+        in_truth, in_other = (regex.fullmatch(pattern, path) is not None for pattern in classes)
         if in_truth and not in_other:
             return f"the scene has light paths {path}, which Whitted's equation sums and this integrator does not"
         if in_other and not in_truth:
@@ -86,9 +92,14 @@ class _Graph:
         count = len(scene.objects)
         self.sees = [[_can_see(scene, i, j) for j in range(count)] for i in range(count)]
 
-    def paths(self, longest: int) -> Iterator[str]:
-        """All kinds of paths that the scene can have, with at most `longest` surfaces, shortest first."""
+    def paths(self, longest: int, may_go_on: Callable[[str], bool]) -> Iterator[str]:
+        """All kinds of paths that the scene can have, with at most `longest` surfaces, shortest first.
+
+        A path whose beginning may not go on is left out, with all that begin like it.
+        """
         everything = frozenset(range(len(self.surfaces)))
+        if not self.background_shines and not any(surface.emits or surface.lit for surface in self.surfaces):
+            return  # in the dark no path ends
         if self.background_shines or any(surface.emits for surface in self.surfaces):
             yield "Ee"
         waiting = {"E": everything}
@@ -97,7 +108,7 @@ class _Graph:
             for path, visible in waiting.items():
                 for letter in "SD":
                     here = frozenset(i for i in visible if letter in self.surfaces[i].letters)
-                    if not here:
+                    if not here or not may_go_on(path + letter):
                         continue
                     seen = frozenset(j for i in here for j in everything if self.sees[i][j])
                     yield from self._ends(path + letter, here, seen)

@@ -71,6 +71,8 @@ def load_scene(path: Path | str) -> Scene:
     """
     path = Path(path)
     data = _parsed(path)
+    if path.stem in {".", ".."}:  # `...json`: results are written to a folder of the scene's name
+        raise SceneError((f"{path}: expected a file name with something before .json; rename it.",))
     problems = [(place(where), "expected each key once, found it again; remove one.") for where in _repeated_keys(data)]
     if isinstance(data, dict) and "name" in data:
         problems.append(("name", "expected no name, since a scene is named after its file; remove it."))

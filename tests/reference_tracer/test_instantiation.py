@@ -111,7 +111,7 @@ def rendered_with(scene: Scene, features: Any) -> Any:
     return image
 
 
-def no_shadows(scene, primitive, point, normal, to_light, light_is_near):  # type: ignore[no-untyped-def]  # noqa: ARG001
+def no_shadows(scene, primitive, point, normal, to_light, light_is_near):  # type: ignore[no-untyped-def]  # noqa: ARG001 - a signature
     return False
 
 

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from scenes.library import open_scene
 from scenes.light_paths import WHITTED, _Graph, comparable_depth, whitted_class
 from scenes.lights import ConstantBackground
 from tests.scenes.exporter_scenes import BALL, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
@@ -217,7 +218,7 @@ def test_the_truth_class_follows_the_scenes_depth() -> None:
 
 
 def paths_of(of: Scene, longest: int) -> set[str]:
-    return set(_Graph(of).paths(longest))
+    return set(_Graph(of).paths(longest, lambda _: True))
 
 
 def words(of: Scene, longest: int) -> set[str]:
@@ -271,10 +272,22 @@ def test_the_paths_listed_are_those_of_all_chains_of_objects_that_see_each_other
     ]
     color = (1.0, 1.0, 1.0) if shines else (0.0, 0.0, 0.0)
     of = scene(*objects, lights=[POINT] if has_lamp else [], background={"color": color})
-    listed = list(_Graph(of).paths(3))
+    listed = list(_Graph(of).paths(3, lambda _: True))
     assert set(listed) == words(of, 3)
     assert listed == sorted(listed, key=len)  # shortest first, so that the reason names a short one
 
 
 def test_the_ball_of_other_tests_is_comparable() -> None:
     assert path(scene(BALL | {"material": "red"})) == 1
+
+
+def test_the_deepest_scene_with_mirrors_and_diffuse_surfaces_is_classified_without_listing_all_words() -> None:
+    # 2^64 words over S and D would never end; those that begin no path of either class are not followed.
+    scene = open_scene("mirror-over-diffuse-floor")
+    deep = scene.model_copy(update={"max_depth": 64, "objects": scene.objects * 2})
+    assert isinstance(comparable_depth(deep, r"E[DS]{{0,{depth}}}(L|e)", has_depth=True), str)
+
+
+def test_a_dark_scene_has_no_paths() -> None:
+    scene = open_scene("mirror-over-diffuse-floor").model_copy(update={"lights": (), "max_depth": 64})
+    assert list(_Graph(scene).paths(66, lambda _: True)) == []

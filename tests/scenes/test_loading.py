@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scenes import loading
+from scenes.library import LIBRARY_FOLDER
 from scenes.loading import SceneError, load_scene
 from scenes.scene import Scene
 from scenes.shapes import Mesh
@@ -213,3 +214,10 @@ def test_too_many_triangles_in_all_meshes_are_refused(tmp_path: Path, monkeypatc
     assert problems(tmp_path, valid_scene()) == []
     monkeypatch.setattr(loading, "LARGEST_FACE_COUNT", 7)
     assert problems(tmp_path, valid_scene()) == ["objects: expected at most 7 triangles in all meshes, found more."]
+
+
+def test_a_file_whose_name_is_only_dots_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "...json"
+    path.write_text((LIBRARY_FOLDER / "single-sphere.json").read_text())
+    with pytest.raises(SceneError, match="something before"):
+        load_scene(path)
