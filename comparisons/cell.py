@@ -40,6 +40,8 @@ class CellPlace:
     key: str
     source: str
     """What names the scene on the command line: its library name or its path."""
+    version: str | None = None
+    """The renderer's; asking for it may take a trial render."""
 
     @property
     def folder(self) -> str:
@@ -86,7 +88,7 @@ def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence
         _check_size(rendering, evidence.truth)
     except RendererError as error:
         log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
-        return Cell(**_names(place), version=renderer.version(), verdict=Verdict.ERROR, reason=str(error), log=log)
+        return Cell(**_names(place), version=place.version, verdict=Verdict.ERROR, reason=str(error), log=log)
     judged = _judge_noisy if rendering.batch_means is not None else _judge_exact
     judgement, test, verdict, reason, distances = judged(rendering, evidence)
     hits = None if rendering.first_hits is None else judge_first_hits(rendering.first_hits, evidence.feasible)
@@ -101,7 +103,7 @@ def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence
         reason=reason,
         largest_error=largest_error(rendering.image, evidence.truth, evidence.feasible),
         seconds=rendering.seconds,
-        version=renderer.version(),
+        version=place.version,
         judgement=judgement,
         stochastic=test,
         first_hits=hits,

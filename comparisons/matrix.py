@@ -61,10 +61,11 @@ def plan_run(sources: Sequence[str], renderers: Sequence[str], directory: Path, 
     by_scene: dict[str, tuple[PlannedCell, ...]] = {}
     versions = {name: all_renderers()[name].version() for name in renderers}
     for source in sources:
+        scene = open_scene(source)
         planned: list[PlannedCell] = []
         for name in renderers:
             for integrator in all_renderers()[name].integrators:
-                step = _planned(source, all_renderers()[name], integrator, versions[name])
+                step = _planned(scene, source, all_renderers()[name], integrator, versions[name])
                 done = _finished(directory, step) if isinstance(step, PlannedCell) and not fresh else None
                 if isinstance(step, Cell):
                     settled.append(step)
@@ -120,9 +121,11 @@ def run_scene(source: str, planned: Sequence[PlannedCell], directory: Path) -> l
     return cells
 
 
-def _planned(source: str, renderer: Renderer, integrator: Integrator, version: str | None) -> Cell | PlannedCell:
-    scene = open_scene(source)
-    place = CellPlace(scene.name, renderer.name, integrator.name, _key(scene, renderer, integrator, version), source)
+def _planned(
+    scene: Scene, source: str, renderer: Renderer, integrator: Integrator, version: str | None
+) -> Cell | PlannedCell:
+    key = _key(scene, renderer, integrator, version)
+    place = CellPlace(scene.name, renderer.name, integrator.name, key, source, version)
     if version is None:
         return _settled(place, Verdict.UNAVAILABLE, f"{renderer.name} is not installed: {renderer.install}")
     depth = depth_or_reason(scene, renderer, integrator)

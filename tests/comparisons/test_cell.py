@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from scenes.scene import Scene
 
-PLACE = CellPlace("small", "pretender", "whitted", key="abc", source="small")
+PLACE = CellPlace("small", "pretender", "whitted", key="abc", source="small", version="pretender 1")
 GLASS = {"white": {"dielectric": {"index_of_refraction": 1.5}}}
 SIZE: dict[str, Any] = {"width": 6, "height": 4, "extent": 3.0}
 # Brighter overhead than anything in the picture, so that right means are not at their bound.

@@ -96,7 +96,7 @@ def test_total_internal_reflection_sends_one_ray_on() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "x", "y", "shape"), [("sphere-over-floor", 88, 57, "sphere"), ("cornell-box", 30, 78, "mesh")]
+    ("name", "x", "y", "shape"), [("sphere-over-floor", 66, 43, "sphere"), ("cornell-box", 22, 58, "mesh")]
 )
 def test_a_shadow_names_the_primitive_and_the_object_in_the_way(name: str, x: int, y: int, shape: str) -> None:
     scene = open_scene(name)
