@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     Overrides = Mapping[str, Callable[..., object]]
 
 # Bands of rows, so that threads stay busy to the end although some rows take longer than others.
-ROWS_IN_A_BAND = 8
+ROWS_IN_A_BAND = 16
 
 
 @dataclass(frozen=True)
@@ -91,5 +92,10 @@ def _in_bands(prepared: PreparedScene, work: Callable[[int, int], None]) -> None
         work(0, rows)
         return
     work(*bands[0])  # compiles, which only one thread should do
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(lambda band: work(*band), bands[1:]))
+    list(_threads().map(lambda band: work(*band), bands[1:]))
+
+
+@functools.cache
+def _threads() -> ThreadPoolExecutor:
+    """One thread a processor, kept: starting them takes as long as some thousand pixels."""
+    return ThreadPoolExecutor(os.cpu_count())
