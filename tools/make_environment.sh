@@ -43,5 +43,7 @@ if ! is_new_enough .venv/bin/python; then
     make_venv
 fi
 echo "Installing raytruth and what it needs into .venv …"
+# The system's packages come from elsewhere and take as long: both at once.
+bash tools/install_system_packages.sh "$@" &
 .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-input --constraint constraints.txt --editable "$what"
-bash tools/install_system_packages.sh "$@"
+wait
