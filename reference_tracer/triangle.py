@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from reference_tracer.vector import cross, dot, negate, normalize, subtract
+from reference_tracer.vector import cross, dot, normalize, subtract
 
 if TYPE_CHECKING:
     from reference_tracer.numbers import Scalar, Vector
@@ -26,17 +26,20 @@ def triangle_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c
     normal = cross(first_edge, second_edge)
     determinant = -dot(direction, normal)
     to_origin = subtract(origin, a)
-    t = dot(to_origin, normal)
-    if determinant < 0.0:
-        determinant = -determinant
-        direction = negate(direction)
-        t = -t
-    if not (determinant > 0.0 and t > 0.0):
-        return inf
     moment = cross(to_origin, direction)
-    u = dot(second_edge, moment)
-    v = -dot(first_edge, moment)
-    if u < 0.0 or v < 0.0 or u + v > determinant:
+    if determinant > 0.0:
+        u = dot(second_edge, moment)
+        v = -dot(first_edge, moment)
+        t = dot(to_origin, normal)
+    elif determinant < 0.0:
+        determinant = -determinant
+        u = -dot(second_edge, moment)
+        v = dot(first_edge, moment)
+        t = -dot(to_origin, normal)
+    else:
+        return inf
+    # The edges first: from a coplanar neighbour, as in a floor of two triangles, t is 0 and undecidable in balls.
+    if u < 0.0 or v < 0.0 or u + v > determinant or t <= 0.0:
         return inf
     return t / determinant
 

@@ -53,7 +53,7 @@ def pretender(monkeypatch: pytest.MonkeyPatch) -> Pretender:
     """The one renderer there is; scenes are rendered in this process, where it can be counted."""
     renderer = Pretender()
     monkeypatch.setattr(matrix, "all_renderers", lambda: {"pretender": renderer})
-    monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, _context: ThreadPoolExecutor(jobs))
+    monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
     return renderer
 
 

@@ -43,7 +43,7 @@ SCENE: dict[str, Any] = {
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The working directory, with a tiny scene in it; scenes are rendered in this process."""
-    monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, _context: ThreadPoolExecutor(jobs))
+    monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
     monkeypatch.chdir(tmp_path)
     scene_file(tmp_path / "small.json")
     return tmp_path
