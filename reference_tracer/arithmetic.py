@@ -47,6 +47,9 @@ class Arithmetic:
         return np.zeros(shape, dtype=type(self.number(0.0)) if self.compiled else object)
 
 
+KERNEL_FILE = "<kernel"
+"""How the file names of kernels begin that are not compiled: they are in no file."""
+
 MATH = {name: getattr(math, name) for name in ("exp", "floor", "inf", "pi", "sqrt", "tan")}
 
 FLOAT = Arithmetic("float", float, MATH)
@@ -84,6 +87,6 @@ def make_kernel(
     names: dict[str, Any] = {"float": arithmetic.number}
     names.update({name: arithmetic.number(value) for name, value in literals.items()})
     names.update(MATH)
-    exec(compile(source, f"<kernel in {arithmetic.name}>", "exec"), names)
+    exec(compile(source, f"{KERNEL_FILE} in {arithmetic.name}>", "exec"), names)
     names.update(arithmetic.functions)
     return Namespace(names)
