@@ -1,0 +1,1 @@
+"""Seeded families of small scenes at the extremes of geometry and optics; catalogue.py holds the table."""
