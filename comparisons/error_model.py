@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+from comparisons.output_model import OutputModel
 
 
 @dataclass(frozen=True)
@@ -16,5 +18,4 @@ class ErrorModel:
     """Secondary rays start at p + n·offset·(1 + max|p|); 0: they start on the surface."""
     shadow_shortening: float = 0.0
     """Shadow rays end at this fraction of the light's distance before the light."""
-    output_bits: int = 24
-    """Significand bits of the numbers it writes (24: float32)."""
+    output: OutputModel = field(default_factory=OutputModel)

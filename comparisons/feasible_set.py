@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.feasible_pixel import FirstHit, PixelEvaluator, UndecidableError
+from comparisons.output_model import OutputModel
 from comparisons.radiance_bound import radiance_bound
 from comparisons.ray_offsets import offset_overrides
 from reference_tracer.balls import Decisions, ball_arithmetic
@@ -58,6 +59,9 @@ class FeasibleSet:
 
 UNUSED = -2
 HIT_VALUES = 7
+FLOAT32_BITS = 24
+FIRST_HIT_OUTPUT = OutputModel("float32")
+"""What renderers tell of first hits, they tell in float32 at least."""
 
 
 def feasible_set(
@@ -66,15 +70,14 @@ def feasible_set(
     """The feasible sets of all pixels of a scene; `overrides` replace functions of the tracer's source."""
     decisions = Decisions()
     arithmetic = ball_arithmetic(error_model.precision_bits, decisions, offset_overrides(error_model, decisions))
-    evaluator = PixelEvaluator(
-        prepare(scene, arithmetic, overrides), decisions, radiance_bound(scene), error_model.output_bits
-    )
+    evaluator = PixelEvaluator(prepare(scene, arithmetic, overrides), decisions, radiance_bound(scene), FLOAT32_BITS)
     pixels = [(column, line) for line in range(scene.camera.height) for column in range(scene.camera.width)]
-    colors = [_color_bounds(evaluator, pixel, error_model.output_bits) for pixel in pixels]
-    hits = [_hit_bounds(evaluator, pixel, error_model.output_bits) for pixel in pixels]
+    colors = [_color_bounds(evaluator, pixel) for pixel in pixels]
+    hits = [_hit_bounds(evaluator, pixel) for pixel in pixels]
     size = (scene.camera.height, scene.camera.width)
-    low, high = _gathered(colors, size, 3)
-    hit_low, hit_high = _gathered([[bounds for _, bounds in of_pixel] for of_pixel in hits], size, HIT_VALUES)
+    low, high = error_model.output.interval_read(*_gathered(colors, size, 3))
+    hit_bounds = _gathered([[bounds for _, bounds in of_pixel] for of_pixel in hits], size, HIT_VALUES)
+    hit_low, hit_high = FIRST_HIT_OUTPUT.interval_read(*hit_bounds)
     primitives = np.full(hit_low.shape[:3], UNUSED)
     for (column, line), of_pixel in zip(pixels, hits, strict=True):
         primitives[line, column, : len(of_pixel)] = [primitive for primitive, _ in of_pixel]
@@ -84,33 +87,33 @@ def feasible_set(
 Bounds = list[tuple[float, float]]
 
 
-def _color_bounds(evaluator: PixelEvaluator, pixel: tuple[int, int], output_bits: int) -> list[Bounds]:
+def _color_bounds(evaluator: PixelEvaluator, pixel: tuple[int, int]) -> list[Bounds]:
     try:
-        return [_bounds(box, output_bits) for box in evaluator.colors(*pixel)]
+        return [_bounds(box) for box in evaluator.colors(*pixel)]
     except UndecidableError:
         return []
 
 
-def _hit_bounds(evaluator: PixelEvaluator, pixel: tuple[int, int], output_bits: int) -> list[tuple[int, Bounds]]:
+def _hit_bounds(evaluator: PixelEvaluator, pixel: tuple[int, int]) -> list[tuple[int, Bounds]]:
     try:
         hits = evaluator.first_hits(*pixel)
     except UndecidableError:
         return []
     if not all(value.is_finite() for hit in hits for value in hit.values):
         return []  # a triangle seen edge on may be met anywhere
-    return [(hit.primitive, _hit_values(hit, output_bits)) for hit in hits]
+    return [(hit.primitive, _hit_values(hit)) for hit in hits]
 
 
-def _hit_values(hit: FirstHit, output_bits: int) -> Bounds:
-    return _bounds(hit.values, output_bits) if hit.values else [(np.nan, np.nan)] * HIT_VALUES
+def _hit_values(hit: FirstHit) -> Bounds:
+    return _bounds(hit.values) if hit.values else [(np.nan, np.nan)] * HIT_VALUES
 
 
-def _bounds(balls: Iterable[Any], output_bits: int) -> Bounds:
-    """The balls' ends, widened by the rounding of the output and by float64's own."""
+def _bounds(balls: Iterable[Any]) -> Bounds:
+    """The balls' ends, widened by float64's own rounding."""
     bounds = []
     for ball in balls:
         middle, radius = float(ball.mid()), float(ball.rad())
-        widened = radius + (abs(middle) + radius) * (2.0**-output_bits + 2.0**-52)
+        widened = radius + (abs(middle) + radius) * 2.0**-52
         bounds.append((middle - widened, middle + widened))
     return bounds
 

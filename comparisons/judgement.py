@@ -97,12 +97,21 @@ def judge_first_hits(hits: FirstHits, feasible: FeasibleSet) -> FirstHitComparis
 def _box_distances(
     values: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Distance of values (h, w, c) from boxes (h, w, k, c) in half widths: (h, w, k), infinity for unused boxes."""
-    middle, half_width = 0.5 * (low + high), 0.5 * (high - low)
-    difference = np.abs(values[:, :, np.newaxis] - middle)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    """Distance of values (h, w, c) from boxes (h, w, k, c) in half widths: (h, w, k), infinity for unused boxes.
+
+    At most 1 exactly where the value is in the box, also where that ends in infinity, as where half floats overflow.
+    """
+    value = values[:, :, np.newaxis]
+    inside = (low <= value) & (value <= high)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        middle, half_width = 0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low
+        difference = np.abs(value - middle)
         in_widths = np.where(difference == 0, 0.0, difference / half_width)
-    return _filled(in_widths.max(axis=3))
+    beyond_one = np.nextafter(1.0, 2.0)
+    judged = np.where(inside, np.fmin(in_widths, 1.0), np.fmax(in_widths, beyond_one))
+    undefined = np.isnan(low) | np.isnan(high) | np.isnan(value)
+    worst: NDArray[np.float64] = np.where(undefined, np.inf, judged).max(axis=3)
+    return worst
 
 
 def _filled(distances: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -8,6 +8,7 @@ import pytest
 
 from comparisons.error_model import ErrorModel
 from comparisons.feasible_set import UNUSED, FeasibleSet, feasible_set
+from comparisons.output_model import OutputModel
 from comparisons.radiance_bound import radiance_bound
 from comparisons.renderers.mitsuba import mitsuba_scalar
 from reference_tracer.arithmetic import FLOAT, FLOAT32
@@ -34,7 +35,7 @@ MODELS = {
     "mitsuba": mitsuba_scalar().error_model,
     "float32": ErrorModel("float32", precision_bits=24),
     "float64": ErrorModel("float64 in a float32 file", precision_bits=51),
-    "wide": ErrorModel("half the digits of a float32", precision_bits=12, output_bits=12),
+    "wide": ErrorModel("half the digits of a float32", precision_bits=12),
 }
 # Shadows, mirrors, glass inside glass, total reflection, absorption, meshes with a tree, and every local term.
 SCENES = (
@@ -95,13 +96,13 @@ def test_the_sets_are_as_narrow_as_the_arithmetic_and_narrower_with_more_bits(na
     roundoffs = 2.0**12
     truth = truth_of(name)
     for bits in (24, 40):
-        feasible = feasible_set(scene_of(name), ErrorModel("", bits, output_bits=bits))
+        feasible = feasible_set(scene_of(name), ErrorModel("", bits, output=OutputModel("float64")))
         certain = (feasible.outcomes == 1)[..., np.newaxis] & (truth > 0)
         half_widths = 0.5 * (feasible.high - feasible.low)[:, :, 0]
         relative = (half_widths / np.where(truth > 0, truth, 1.0))[certain]
         assert len(relative) > 100
         assert np.median(relative) < roundoffs * 2.0**-bits
-        assert np.median(relative) >= 2.0**-bits  # the rounding of the output alone
+        assert np.median(relative) >= 2.0**-bits
 
 
 @pytest.mark.parametrize("name", [name for name in SCENES if name != "whitted-1980"])
@@ -195,7 +196,7 @@ def test_where_radiance_is_bounded_no_box_exceeds_it_however_few_the_bits(name: 
     scene = scene_of(name)
     bound = radiance_bound(scene)
     assert bound is not None
-    feasible = feasible_set(scene, ErrorModel("", bits, output_bits=24))
+    feasible = feasible_set(scene, ErrorModel("", bits))
     used = (feasible.hit_primitives != UNUSED).any()
     boxes = feasible.outcomes > 0
     assert used or not boxes.any()

@@ -1,0 +1,115 @@
+"""Output models: how a renderer turns radiance into the numbers it writes, and what is read back from them.
+
+Radiance is clipped, encoded by a transfer curve and rounded to a number format. Each step is monotone, so an interval
+of radiance becomes an interval of codes, found from its two ends. Pixels are judged as linear values that were read
+back from the codes; a code stands for everything up to halfway to its neighbours, so that it does not matter with how
+many roundings the reader decodes it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+
+LARGEST_CODES = {"uint8": 255, "uint16": 65535}
+"""The code of 1; 0 is the code of 0."""
+
+# Renderers whose own numbers are wider may still go through float32 on their way to a file.
+FLOAT32_ROUNDOFF = 2.0**-24
+# To float32, times the largest code, plus a half.
+LINEAR_ROUNDOFFS = 3
+# The encoding 1.055·x^(1/2.4) - 0.055, in roundoffs for x from 0.0031308 to 1: x itself 1/2.4; the exponent |ln x|/2.4,
+# up to 2.4; the power function 4 (two units in the last place); its factor and the product 2; the subtraction magnifies
+# these by up to 2.4, and adds the constant's 1.4 and 1; the three of above. That is 27, rounded up to a power of two.
+# Beyond 1 only the exponent's share grows, and nothing is magnified: it holds for all x up to 1e20. The decoding takes
+# fewer: the sum 2, the quotient 2, magnified by 2.4; the exponent 2.4·|ln|, up to 5.8; the power function 4.
+CURVE_ROUNDOFFS = 32
+
+
+@dataclass(frozen=True)
+class OutputModel:
+    """What becomes of radiance in the file. Raises ValueError for integers that are not clipped."""
+
+    numbers: Literal["uint8", "uint16", "float16", "float32", "float64"] = "float32"
+    transfer: Literal["linear", "sRGB"] = "linear"
+    """Whether the curve of sRGB (IEC 61966-2-1:1999, section 5.2) is applied before rounding."""
+    rounding: Literal["nearest", "truncation"] = "nearest"
+    clipped: bool = False
+    """To [0, 1]."""
+
+    def __post_init__(self) -> None:
+        if self.numbers in LARGEST_CODES and not self.clipped:
+            raise ValueError("integers hold nothing outside [0, 1], so their output is clipped")
+
+    def interval_read(self, low: ArrayLike, high: ArrayLike) -> tuple[Array, Array]:
+        """The linear values that may be read where the radiance is in [low, high]; NaN stays NaN.
+
+        Above what a format can hold the ends are infinite, as what is written there.
+        """
+        return self._end_read(np.asarray(low, np.float64), -1), self._end_read(np.asarray(high, np.float64), 1)
+
+    def linear_values(self, written: ArrayLike) -> Array:
+        """What is read from codes or numbers of a file: linear values, where 1 is the largest code of integers."""
+        values = np.asarray(written, np.float64) / LARGEST_CODES.get(self.numbers, 1)
+        return srgb_decoded(values) if self.transfer == "sRGB" else values
+
+    def in_words(self) -> str:
+        """One clause."""
+        clipping = "clipped to [0, 1]" if self.clipped else "not clipped"
+        rounding = "rounded to the nearest" if self.rounding == "nearest" else "truncated"
+        return f"{self.numbers}, {self.transfer}, {rounding}, {clipping}"
+
+    def _end_read(self, radiance: Array, side: int) -> Array:
+        """The lowest (side -1) or highest (side 1) value that may be read for this radiance."""
+        clipped = np.clip(radiance, 0.0, 1.0) if self.clipped else radiance
+        encoded = srgb_encoded(clipped) if self.transfer == "sRGB" else clipped
+        written = self._integers(encoded, side) if self.numbers in LARGEST_CODES else self._floats(encoded, side)
+        read = self.linear_values(written)
+        return read + side * CURVE_ROUNDOFFS * FLOAT32_ROUNDOFF * np.abs(read) if self.transfer == "sRGB" else read
+
+    def _integers(self, encoded: Array, side: int) -> Array:
+        """The farthest code that may be written, and half a code more."""
+        largest = LARGEST_CODES[self.numbers]
+        # The half that is added before the integer part is taken has a rounding, too.
+        codes = encoded * largest + side * self._slack() * (encoded * largest + 0.5)
+        codes = np.rint(codes) if self.rounding == "nearest" else np.floor(codes)
+        return np.asarray(np.clip(codes, 0, largest) + 0.5 * side, np.float64)
+
+    def _floats(self, encoded: Array, side: int) -> Array:
+        """The farthest number that may be written, and half the way to the next; none is beyond the largest."""
+        farthest = encoded + side * self._slack() * np.abs(encoded)
+        with np.errstate(over="ignore"):  # what the format cannot hold is infinite in it
+            written: NDArray[Any] = farthest.astype(self.numbers)
+            if self.rounding == "truncation":
+                toward_zero = np.nextafter(written, written.dtype.type(0))
+                written = np.where(np.abs(written.astype(np.float64)) > np.abs(farthest), toward_zero, written)
+            neighbour = np.nextafter(written, written.dtype.type(side * np.inf)).astype(np.float64)
+        value = written.astype(np.float64)
+        has_neighbour = np.isfinite(value) & np.isfinite(neighbour)
+        halfway = 0.5 * np.where(has_neighbour, value, 0.0) + 0.5 * np.where(has_neighbour, neighbour, 0.0)
+        return np.where(has_neighbour, halfway, value)
+
+    def _slack(self) -> float:
+        """How far a renderer's own rounding may move a number before it is written, relatively."""
+        if self.transfer == "sRGB":
+            return CURVE_ROUNDOFFS * FLOAT32_ROUNDOFF
+        return 0.0 if self.numbers in {"float32", "float64"} else LINEAR_ROUNDOFFS * FLOAT32_ROUNDOFF
+
+
+def srgb_encoded(linear: Array) -> Array:
+    """The curve of sRGB: 12.92·x up to 0.0031308, then 1.055·x^(1/2.4) - 0.055 (IEC 61966-2-1:1999, section 5.2)."""
+    steep = 1.055 * np.maximum(linear, 0.0031308) ** (1 / 2.4) - 0.055
+    return np.asarray(np.where(linear <= 0.0031308, 12.92 * linear, steep))
+
+
+def srgb_decoded(encoded: Array) -> Array:
+    """The inverse: x/12.92 up to 0.04045, then ((x + 0.055)/1.055)^2.4 (IEC 61966-2-1:1999, section 5.3)."""
+    steep = ((np.maximum(encoded, 0.04045) + 0.055) / 1.055) ** 2.4
+    return np.asarray(np.where(encoded <= 0.04045, encoded / 12.92, steep))
