@@ -12,6 +12,8 @@ import OpenImageIO
 from scenes.camera import LARGEST_SIDE
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
 CHANNEL_NAMES = {1: ("Y",), 3: ("R", "G", "B")}
@@ -31,14 +33,22 @@ def write_image(path: Path, image: NDArray[np.float32]) -> None:
     channels = 1 if image.ndim == 2 else image.shape[-1]
     if image.ndim not in {2, 3} or channels not in CHANNEL_NAMES or image.size == 0 or image.dtype != np.float32:
         raise ValueError(f"expected float32 of shape (h, w) or (h, w, 3), got {image.dtype} of shape {image.shape}")
-    height, width = image.shape[:2]
+    write_channels(path, image.reshape(*image.shape[:2], channels), CHANNEL_NAMES[channels])
+
+
+def write_channels(path: Path, image: NDArray[np.float32], names: Sequence[str]) -> None:
+    """Write float32 channels of shape (height, width, channels) by their names.
+
+    The file appears whole or not at all. Raises ImageError if it cannot be written.
+    """
+    height, width, channels = image.shape
     spec = OpenImageIO.ImageSpec(width, height, channels, "float")
-    spec.channelnames = CHANNEL_NAMES[channels]
+    spec.channelnames = tuple(names)
     try:
         with TemporaryDirectory(prefix=".", dir=path.parent) as folder:  # beside the file, so that a rename can move it
             whole = Path(folder) / "image.exr"
             buffer = OpenImageIO.ImageBuf(spec)
-            buffer.set_pixels(OpenImageIO.ROI.All, image.reshape(height, width, channels))
+            buffer.set_pixels(OpenImageIO.ROI.All, image)
             if not buffer.write(str(whole)):
                 raise ImageError(f"{path}: the image could not be written ({_text(buffer.geterror)})")
             whole.replace(path)

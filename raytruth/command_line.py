@@ -45,6 +45,12 @@ COMMANDS = {
         "Examples: `raytruth render whitted-1980 -o whitted.png --size 640x480 --samples 4`, "
         "`raytruth render mine.json -o mine.exr --arithmetic float32`",
     ),
+    "truth": (
+        "raytruth.truth_command:truth",
+        "Prove the value of each pixel: the tracer in ball arithmetic, with as many bits as each pixel needs.",
+        "Writes an OpenEXR image of values and radii, and a JSON file of undecided pixels. "
+        "Examples: `raytruth truth whitted-1980`, `raytruth truth mine.json --size 320x240 --json`",
+    ),
     "explain": (
         "raytruth.explain_command:explain",
         "Explain one pixel: every ray of its tree, every hit, normal, term and weight, and the sum.",

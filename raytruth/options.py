@@ -43,3 +43,11 @@ def parse_size(text: str) -> tuple[int, int]:
     if match is None or not all(1 <= int(side) <= LARGEST_SIDE for side in match.groups()):
         raise UsageError(f"--size: expected WIDTHxHEIGHT as in 320x240, both from 1 to {LARGEST_SIDE}, found {text!r}.")
     return int(match[1]), int(match[2])
+
+
+def resized(scene: Scene, size: str | None) -> Scene:
+    """The scene with an image of the size in `WxH`, or as it is. Raises UsageError as `parse_size` does."""
+    if size is None:
+        return scene
+    width, height = parse_size(size)
+    return scene.model_copy(update={"camera": scene.camera.model_copy(update={"width": width, "height": height})})

@@ -14,7 +14,7 @@ from cyclopts.validators import Number
 
 from comparisons.images import ImageError, write_image
 from raytruth.errors import UsageError
-from raytruth.options import AsJson, open_scene, parse_size
+from raytruth.options import AsJson, open_scene, resized
 from raytruth.output import print_json, progress
 from reference_tracer import rendering
 from reference_tracer.arithmetic import FLOAT, FLOAT32, FLOAT64
@@ -56,11 +56,7 @@ def render(
         Print one JSON document instead of text.
     """
     _check_destination(out)
-    opened = open_scene(scene)
-    if size is not None:
-        width, height = parse_size(size)
-        camera = opened.camera.model_copy(update={"width": width, "height": height})
-        opened = opened.model_copy(update={"camera": camera})
+    opened = resized(open_scene(scene), size)
     chosen = {"float": FLOAT, "float64": FLOAT64, "float32": FLOAT32}[arithmetic]
     what = f"{opened.name} at {opened.camera.width}x{opened.camera.height} in {arithmetic}"
     start = time.perf_counter()

@@ -130,24 +130,28 @@ class _Evaluator:
         with ctx.workprec(self.bits):
             center = (arb(column + 0.5), arb(line + 0.5))
             color = self.prepared.kernel.radiance_at(self.prepared.data, self.frame, *center)
-            channels = [enclosing_floats(channel) for channel in color]
-        if not all(math.isfinite(radius) for _, radius in channels):
-            return NOTHING_KNOWN
-        return Enclosure(tuple(middle for middle, _ in channels), tuple(radius for _, radius in channels))
+            return enclosure_of(color)
 
     def primary_ray(self, column: int, line: int) -> tuple[Color, Color]:
         """Origin and unit direction, rounded to floats."""
         with ctx.workprec(self.bits):
             ray = self.prepared.kernel.primary_ray(self.frame, arb(column + 0.5), arb(line + 0.5))
-            origin, direction = (tuple(float(part.mid()) for part in vector) for vector in ray)
-        return origin, direction
+        (x, y, z), (dx, dy, dz) = ([float(part.mid()) for part in vector] for vector in ray)
+        return (x, y, z), (dx, dy, dz)
+
+
+def enclosure_of(color: Sequence[Any]) -> Enclosure:
+    """Floats that enclose three balls; NOTHING_KNOWN if there are none."""
+    red, green, blue = (enclosing_floats(channel) for channel in color)
+    found = Enclosure((red[0], green[0], blue[0]), (red[1], green[1], blue[1]))
+    return found if max(found.radius) <= LARGEST_FLOAT else NOTHING_KNOWN
 
 
 def enclosing_floats(ball: Any) -> tuple[float, float]:
-    """Middle and radius of an interval that holds the ball; the radius is infinite where none of floats does."""
+    """Middle and radius of an interval that holds the ball; the radius is infinite if floats hold no such interval."""
     middle = float(ball.mid())
     if not (ball.is_finite() and math.isfinite(middle)):
-        return math.nan, math.inf
+        return middle, math.inf
     distance = abs(ball - arb(middle)).upper()
     radius = float(distance)
     return middle, radius if arb(radius) >= distance else math.nextafter(radius, math.inf)
@@ -159,9 +163,10 @@ def _hull(outcomes: Sequence[Enclosure]) -> Enclosure:
         return NOTHING_KNOWN
     if len(outcomes) == 1:
         return outcomes[0]
-    hulls = []
     with ctx.workprec(FEWEST_BITS):
-        for channel in range(3):
-            balls = [arb(outcome.middle[channel], outcome.radius[channel]) for outcome in outcomes]
-            hulls.append(enclosing_floats(functools.reduce(lambda a, b: a.union(b), balls)))
-    return Enclosure(tuple(middle for middle, _ in hulls), tuple(radius for _, radius in hulls))
+        return enclosure_of([_union(outcomes, channel) for channel in range(3)])
+
+
+def _union(outcomes: Sequence[Enclosure], channel: int) -> Any:
+    balls = (arb(outcome.middle[channel], outcome.radius[channel]) for outcome in outcomes)
+    return functools.reduce(lambda a, b: a.union(b), balls)

@@ -1,0 +1,228 @@
+"""The certified image of a scene: bands of rows, rendered in processes side by side, and kept.
+
+A band is a file in the cache, written whole or not at all, so that an image that was interrupted goes on where it
+stopped. Its folder is named by all that the image depends on: the scene, our code, and the library of balls.
+"""
+
+from __future__ import annotations
+
+import gc
+import hashlib
+import json
+import zipfile
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from multiprocessing import get_context
+from pathlib import Path
+from tempfile import NamedTemporaryFile
+from typing import TYPE_CHECKING, Any
+
+import flint
+import numpy as np
+
+from reference_tracer.certification import TWO_ROUNDINGS, CertifiedPixel, Certifier, Enclosure, Undecided
+from reference_tracer.compilation import cache_folder
+from reference_tracer.source_digest import source_digest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+
+    from numpy.typing import NDArray
+
+    from scenes.scene import Scene
+
+# A second or so of work, so that little is lost when a run is interrupted, and no process is left alone for long.
+PIXELS_IN_A_BAND = 2048
+
+Pixel = tuple[int, int]
+"""Column and line."""
+
+
+@dataclass(frozen=True)
+class CertifiedImage:
+    """Enclosures of all pixels of rows that follow each other, row 0 on top.
+
+    Undecided pixels have the enclosure of all their outcomes, or infinite values where there is none.
+    """
+
+    middle: NDArray[np.float64]
+    """Shape (rows, width, 3), linear RGB."""
+    radius: NDArray[np.float64]
+    """Shape (rows, width, 3)."""
+    precision_bits: NDArray[np.int64]
+    """Shape (rows, width): with how many bits each pixel was evaluated in the end."""
+    undecided: dict[Pixel, Undecided]
+
+    @property
+    def decided(self) -> NDArray[np.bool_]:
+        """Where the value is proven; shape (rows, width)."""
+        decided = np.ones(self.precision_bits.shape, dtype=bool)
+        for column, line in self.undecided:
+            decided[line, column] = False
+        return decided
+
+
+@dataclass(frozen=True, eq=False)
+class _Band:
+    """Rows `first` to `end` - 1 of a scene's image, and the folder where they are kept."""
+
+    scene: Scene
+    first: int
+    end: int
+    folder: Path
+
+    @property
+    def file(self) -> Path:
+        return self.folder / f"rows-{self.first}-{self.end}.npz"
+
+
+def certified_image(
+    scene: Scene, *, jobs: int = 1, fresh: bool = False, progress: Callable[[int, int], None] | None = None
+) -> CertifiedImage:
+    """The certified image of a scene at its own size, made by `jobs` processes, or by this one for 1.
+
+    Bands that are kept from before are used unless `fresh`. `progress` is told how many bands of how many are done.
+    The radius of a decided pixel is at most 2^-52 of the image's largest value: pixels that miss that at first are
+    evaluated with more bits once that value is known.
+    """
+    bands = _bands(scene)
+    images = {} if fresh else {band: image for band in bands if (image := _read(band)) is not None}
+    missing = [band for band in bands if band not in images]
+    for band, image in _side_by_side(_certified_band, [(band,) for band in missing], jobs):
+        images[band] = image
+        if progress is not None:
+            progress(len(images), len(bands))
+    widest = TWO_ROUNDINGS * largest_value(images.values())
+    wide = [(band, image, widest) for band, image in images.items() if _is_wide(image, widest).any()]
+    images.update(_side_by_side(_refined_band, wide, jobs))
+    return _joined([(band, images[band]) for band in bands])
+
+
+def largest_value(images: Iterable[CertifiedImage]) -> float:
+    """A value that some decided pixel is proven to reach; 0 if there is none."""
+    return max(float(np.max((image.middle - image.radius)[image.decided], initial=0.0)) for image in images)
+
+
+def collect_garbage_rarely() -> None:
+    """Balls come and go by the million and hold no cycles; looking for some every 700 takes a tenth of the time."""
+    gc.set_threshold(100_000)
+
+
+def _bands(scene: Scene) -> list[_Band]:
+    versions = (flint.__version__, flint.__FLINT_VERSION__, np.__version__)
+    code = source_digest("scenes", "reference_tracer")
+    key = hashlib.sha256("\n".join((scene.model_dump_json(), code, *versions)).encode()).hexdigest()[:16]
+    folder = cache_folder() / "truth" / key
+    rows = max(1, PIXELS_IN_A_BAND // scene.camera.width)
+    height = scene.camera.height
+    return [_Band(scene, first, min(first + rows, height), folder) for first in range(0, height, rows)]
+
+
+Work = tuple[Any, ...]
+"""A band, and whatever else the function takes."""
+
+
+def _side_by_side(
+    function: Callable[..., CertifiedImage], work: Sequence[Work], jobs: int
+) -> Iterator[tuple[_Band, CertifiedImage]]:
+    """The bands as they are finished. When the caller stops early, what runs is finished and the rest is dropped."""
+    if jobs == 1 or len(work) <= 1:
+        yield from ((arguments[0], function(*arguments)) for arguments in work)
+        return
+    # Fresh interpreters: threads of a forked one may hold locks for ever.
+    with ProcessPoolExecutor(min(jobs, len(work)), get_context("spawn"), collect_garbage_rarely) as pool:
+        waiting = {pool.submit(function, *arguments): arguments[0] for arguments in work}
+        try:
+            for finished in as_completed(waiting):
+                yield waiting[finished], finished.result()
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def _certified_band(band: _Band) -> CertifiedImage:
+    certifier = Certifier(band.scene)
+    width = band.scene.camera.width
+    image = CertifiedImage(
+        np.empty((band.end - band.first, width, 3)),
+        np.empty((band.end - band.first, width, 3)),
+        np.empty((band.end - band.first, width), dtype=np.int64),
+        {},
+    )
+    for line in range(band.first, band.end):
+        for column in range(width):
+            _put(image, column, line - band.first, certifier.pixel(column, line))
+    _write(band, image)
+    return image
+
+
+def _refined_band(band: _Band, image: CertifiedImage, widest: float) -> CertifiedImage:
+    """With more bits where a radius is above `widest`."""
+    certifier = Certifier(band.scene)
+    for row, column in np.argwhere(_is_wide(image, widest)).tolist():
+        _put(image, column, row, certifier.pixel(column, band.first + row, widest))
+    _write(band, image)
+    return image
+
+
+def _is_wide(image: CertifiedImage, widest: float) -> NDArray[np.bool_]:
+    """Which decided pixels have a radius above `widest`; none where all is black and so nothing is wide."""
+    wide: NDArray[np.bool_] = image.decided & (image.radius.max(axis=2) > widest) & (widest > 0.0)
+    return wide
+
+
+def _put(image: CertifiedImage, column: int, row: int, pixel: CertifiedPixel) -> None:
+    image.middle[row, column] = pixel.middle
+    image.radius[row, column] = pixel.radius
+    image.precision_bits[row, column] = pixel.precision_bits
+    if pixel.undecided is not None:
+        image.undecided[column, row] = pixel.undecided
+
+
+def _joined(bands: Sequence[tuple[_Band, CertifiedImage]]) -> CertifiedImage:
+    images = [image for _, image in bands]
+    return CertifiedImage(
+        np.concatenate([image.middle for image in images]),
+        np.concatenate([image.radius for image in images]),
+        np.concatenate([image.precision_bits for image in images]),
+        {
+            (column, band.first + row): reason
+            for band, image in bands
+            for (column, row), reason in image.undecided.items()
+        },
+    )
+
+
+def _write(band: _Band, image: CertifiedImage) -> None:
+    band.folder.mkdir(parents=True, exist_ok=True)
+    undecided = [[column, row, asdict(reason)] for (column, row), reason in image.undecided.items()]
+    with NamedTemporaryFile(dir=band.folder, suffix=".tmp", delete=False) as file:
+        np.savez(
+            file,
+            middle=image.middle,
+            radius=image.radius,
+            precision_bits=image.precision_bits,
+            undecided=np.array(json.dumps(undecided)),
+        )
+    Path(file.name).replace(band.file)
+
+
+def _read(band: _Band) -> CertifiedImage | None:
+    """The band as it was kept; None if it was not, or if its file is damaged."""
+    try:
+        with np.load(band.file) as arrays:
+            undecided = {
+                (column, row): _undecided(reason) for column, row, reason in json.loads(str(arrays["undecided"]))
+            }
+            return CertifiedImage(arrays["middle"], arrays["radius"], arrays["precision_bits"], undecided)
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        return None
+
+
+def _undecided(document: dict[str, Any]) -> Undecided:
+    outcomes = tuple(Enclosure(tuple(outcome["middle"]), tuple(outcome["radius"])) for outcome in document["outcomes"])
+    return Undecided(
+        tuple(document["origin"]),
+        tuple(document["direction"]),
+        outcomes,
+        document["explanation"],
+    )
