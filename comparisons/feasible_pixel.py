@@ -17,14 +17,10 @@ from reference_tracer.traversal import NOTHING
 
 if TYPE_CHECKING:
     from comparisons.radiance_bound import RadianceBound
-    from reference_tracer.balls import Decisions
-    from reference_tracer.rendering import PreparedScene
+    from comparisons.rounded_rays import Box, RoundedRays
 
 # Four independent undecided comparisons; more than this many outcomes are merged into one box.
 MOST_OUTCOMES = 16
-
-Box = tuple[Any, Any, Any]
-"""A ball for each channel."""
 
 
 class UndecidableError(Exception):
@@ -43,55 +39,43 @@ class FirstHit:
 class PixelEvaluator:
     """Evaluates the pixels of one scene; `bound` limits what any ray can bring, None if that is unknown."""
 
-    def __init__(
-        self, prepared: PreparedScene, decisions: Decisions, bound: RadianceBound | None, output_bits: int
-    ) -> None:
-        self.prepared = prepared
-        self.decisions = decisions
+    def __init__(self, rays: RoundedRays, bound: RadianceBound | None, output_bits: int) -> None:
+        self.rays = rays
         self.bound = bound
         self.negligible_weight = 2.0**-output_bits
         """What is under a rounding of the brightest value does not deserve its own tree."""
-        self.frame = prepared.kernel.camera_frame(prepared.data)
-        scene = prepared.scene
-        names = list(scene.materials)
-        self.medium = -1 if scene.camera.inside is None else names.index(scene.camera.inside)
+        self.excess = 1.0 + 2.0 ** (10 - output_bits)
+        """Rounding may lift a value above the bound: by a roundoff an operation, and a pixel has fewer than 2^10."""
+        scene = rays.prepared.scene
+        self.depth = scene.max_depth
+        self.medium = -1 if scene.camera.inside is None else list(scene.materials).index(scene.camera.inside)
+        self.merged = False
 
-    def colors(self, column: int, line: int) -> list[Box]:
-        """The boxes of a pixel's feasible colours.
+    def colors(self, column: int, line: int) -> tuple[list[Box], bool]:
+        """The boxes of a pixel's feasible colours, and whether there were too many to tell apart.
 
         Raises UndecidableError, also where one box spans more than half of all that a ray of the scene may bring: such
         a pixel would pass with almost any value.
         """
-        origin, direction = self._primary_ray(column, line)
+        origin, direction = self.rays.primary_ray(column, line)
         white = (arb(1), arb(1), arb(1))
-        camera_ray = (origin, direction, white, NOTHING, self.medium, self.prepared.scene.max_depth)
-        boxes = self._outcomes(camera_ray, MOST_OUTCOMES)
-        if self.bound is not None:
-            widest = max(float(channel.rad()) for box in boxes for channel in box)
-            if 2 * widest > self.bound.at_camera / 2:
-                raise UndecidableError
-        return boxes
+        self.merged = False
+        boxes = self._outcomes((origin, direction, white, NOTHING, self.medium, self.depth), MOST_OUTCOMES)
+        if self.bound is not None and 2 * widest(boxes) > self.bound.at_camera / 2:
+            raise UndecidableError
+        return boxes, self.merged
 
     def first_hits(self, column: int, line: int) -> list[FirstHit]:
         """What the pixel's ray may meet first. Raises UndecidableError."""
-        origin, direction = self._primary_ray(column, line)
-        kernel, data = self.prepared.kernel, self.prepared.data
-
-        def meet() -> FirstHit:
-            distance, primitive = kernel.nearest_hit(data, origin, direction, NOTHING)
-            if primitive == NOTHING:
-                return FirstHit(NOTHING, ())
-            point = kernel.along(origin, direction, distance)
-            return FirstHit(primitive, (distance, *point, *kernel.surface_normal(data, primitive, point)))
-
+        origin, direction = self.rays.primary_ray(column, line)
         try:
-            return list(every_outcome(meet, self.decisions, MOST_OUTCOMES))
+            hits = every_outcome(lambda: self.rays.first_hit(origin, direction), self.rays.decisions, MOST_OUTCOMES)
+            found = [FirstHit(*hit) for hit in hits]
         except TooManyOutcomesError as error:
             raise UndecidableError from error
-
-    def _primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
-        ray: tuple[Any, Any] = self.prepared.kernel.primary_ray(self.frame, arb(column + 0.5), arb(line + 0.5))
-        return ray
+        if not all(value.is_finite() for hit in found for value in hit.values):
+            raise UndecidableError  # a triangle seen edge on may be met anywhere
+        return found
 
     def _outcomes(self, ray: Any, most: int) -> list[Box]:
         """All that a ray and those that go on from it may contribute.
@@ -103,8 +87,9 @@ class PixelEvaluator:
         if self.bound is not None and all(channel < self.negligible_weight for channel in weight):
             return [self._anything(weight)]
         try:
-            steps = list(every_outcome(lambda: self._step(ray), self.decisions, most))
+            steps = list(every_outcome(lambda: self._step(ray), self.rays.decisions, most))
         except TooManyOutcomesError:
+            self.merged = True
             return [self._anything(weight)]
         boxes: list[Box] = []
         for local, children in steps:
@@ -112,10 +97,10 @@ class PixelEvaluator:
             for child in children:
                 added = self._outcomes(child, max(1, most // len(steps)))
                 if len(sums) * len(added) > MOST_OUTCOMES:
-                    sums, added = _hull(sums), _hull(added)
+                    sums, added = self._hull(sums), self._hull(added)
                 sums = [_sum(a, b) for a in sums for b in added]
             boxes.extend(sums)
-        boxes = boxes if len(boxes) <= MOST_OUTCOMES else _hull(boxes)
+        boxes = boxes if len(boxes) <= MOST_OUTCOMES else self._hull(boxes)
         if self.bound is None:
             if not all(channel.is_finite() for box in boxes for channel in box):
                 raise UndecidableError
@@ -125,19 +110,26 @@ class PixelEvaluator:
 
     def _step(self, ray: Any) -> tuple[Box, list[Any]]:
         """The ray's own contribution, and the rays that go on from its end."""
-        children: list[Any] = []
-        local = self.prepared.kernel.trace_ray(self.prepared.data, ray, children)
+        local, children = self.rays.trace(ray)
         if self.bound is None:
             return local, children
         # No surface of such a scene gives back more than it gets, however little the balls know of Fresnel's split.
-        most = self._from_black(ray[2], self.bound.growth)
+        most = self._from_black(ray[2], self.bound.growth * self.excess)
         return local, [(*child[:2], _common(child[2], most), *child[3:]) for child in children]
 
     def _anything(self, weight: Box) -> Box:
         """From black to the weight times the brightest radiance."""
         if self.bound is None:
             raise UndecidableError
-        return self._from_black(weight, self.bound.radiance)
+        return self._from_black(weight, self.bound.radiance * self.excess)
+
+    def _hull(self, boxes: list[Box]) -> list[Box]:
+        """The one box that holds them all."""
+        self.merged = True
+        red, green, blue = boxes[0]
+        for box in boxes[1:]:
+            red, green, blue = red.union(box[0]), green.union(box[1]), blue.union(box[2])
+        return [(red, green, blue)]
 
     @staticmethod
     def _from_black(weight: Box, factor: float) -> Box:
@@ -160,9 +152,6 @@ def _common(box: Box, possible: Box) -> Box:
     return red, green, blue
 
 
-def _hull(boxes: list[Box]) -> list[Box]:
-    """The one box that holds them all."""
-    red, green, blue = boxes[0]
-    for box in boxes[1:]:
-        red, green, blue = red.union(box[0]), green.union(box[1]), blue.union(box[2])
-    return [(red, green, blue)]
+def widest(boxes: list[Box]) -> float:
+    """The largest radius of any ball."""
+    return max(float(channel.rad()) for box in boxes for channel in box)

@@ -11,13 +11,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from flint import arb, ctx
 
-from comparisons.feasible_pixel import FirstHit, PixelEvaluator, UndecidableError
+from comparisons.feasible_pixel import FirstHit, PixelEvaluator, UndecidableError, widest
 from comparisons.output_model import OutputModel
 from comparisons.radiance_bound import radiance_bound
-from comparisons.ray_offsets import offset_overrides
-from reference_tracer.balls import Decisions, ball_arithmetic
-from reference_tracer.rendering import prepare
+from comparisons.rounded_rays import LinkedRays, PlainRays
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from comparisons.error_model import ErrorModel
+    from comparisons.rounded_rays import Box
     from scenes.scene import Scene
 
 
@@ -38,6 +38,8 @@ class FeasibleSet:
     low: NDArray[np.float64]
     """Shape (height, width, K, 3)."""
     high: NDArray[np.float64]
+    merged: NDArray[np.bool_]
+    """Shape (height, width): whether there were too many outcomes to tell apart, so that one box holds several."""
     hit_primitives: NDArray[np.int64]
     """Shape (height, width, L); -1: nothing is hit; -2: unused place."""
     hit_low: NDArray[np.float64]
@@ -59,6 +61,9 @@ class FeasibleSet:
 
 UNUSED = -2
 HIT_VALUES = 7
+NO_VALUES = (arb("nan"),) * HIT_VALUES
+# Of the image's largest value, a quarter of a step of an 8-bit picture: wider, and a test of the pixel would be weak.
+WIDE = 2.0**-10
 FLOAT32_BITS = 24
 FIRST_HIT_OUTPUT = OutputModel("float32")
 """What renderers tell of first hits, they tell in float32 at least."""
@@ -67,45 +72,76 @@ FIRST_HIT_OUTPUT = OutputModel("float32")
 def feasible_set(
     scene: Scene, error_model: ErrorModel, overrides: Mapping[str, Callable[..., object]] | None = None
 ) -> FeasibleSet:
-    """The feasible sets of all pixels of a scene; `overrides` replace functions of the tracer's source."""
-    decisions = Decisions()
-    arithmetic = ball_arithmetic(error_model.precision_bits, decisions, offset_overrides(error_model, decisions))
-    evaluator = PixelEvaluator(prepare(scene, arithmetic, overrides), decisions, radiance_bound(scene), FLOAT32_BITS)
+    """The feasible sets of all pixels of a scene; `overrides` replace functions of the tracer's source.
+
+    All pixels are evaluated in plain balls, which is quick; those that they leave open, or too wide, in linked ones.
+    """
+    bound = radiance_bound(scene)
     pixels = [(column, line) for line in range(scene.camera.height) for column in range(scene.camera.width)]
-    colors = [_color_bounds(evaluator, pixel) for pixel in pixels]
-    hits = [_hit_bounds(evaluator, pixel) for pixel in pixels]
-    size = (scene.camera.height, scene.camera.width)
-    low, high = error_model.output.interval_read(*_gathered(colors, size, 3))
-    hit_bounds = _gathered([[bounds for _, bounds in of_pixel] for of_pixel in hits], size, HIT_VALUES)
-    hit_low, hit_high = FIRST_HIT_OUTPUT.interval_read(*hit_bounds)
-    primitives = np.full(hit_low.shape[:3], UNUSED)
-    for (column, line), of_pixel in zip(pixels, hits, strict=True):
-        primitives[line, column, : len(of_pixel)] = [primitive for primitive, _ in of_pixel]
-    return FeasibleSet(low, high, primitives, hit_low, hit_high)
+    with ctx.workprec(ctx.prec):  # both ways of following rays set it
+        plain = PixelEvaluator(PlainRays(scene, error_model, overrides), bound, FLOAT32_BITS)
+        colors = [_colors(plain, pixel) for pixel in pixels]
+        hits = [_first_hits(plain, pixel) for pixel in pixels]
+        widest_radius = WIDE * _brightest(colors)
+        wide = [place for place, color in enumerate(colors) if color is None or color.is_wide(widest_radius)]
+        wide_hits = [place for place, hit in enumerate(hits) if hit is None]
+        if wide or wide_hits:
+            linked = PixelEvaluator(LinkedRays(scene, error_model, overrides), bound, FLOAT32_BITS)
+            for place in wide:
+                colors[place] = _colors(linked, pixels[place]) or colors[place]
+            for place in wide_hits:
+                hits[place] = _first_hits(linked, pixels[place])
+        return _as_arrays(scene, error_model, colors, hits)
+
+
+@dataclass(frozen=True)
+class _Colors:
+    """The feasible colours of one pixel, and whether they were too many to tell apart."""
+
+    boxes: list[Box]
+    merged: bool
+
+    def is_wide(self, widest_radius: float) -> bool:
+        """Whether a closer look is worth its time."""
+        return self.merged or widest(self.boxes) > widest_radius
+
+
+def _colors(evaluator: PixelEvaluator, pixel: tuple[int, int]) -> _Colors | None:
+    try:
+        return _Colors(*evaluator.colors(*pixel))
+    except UndecidableError:
+        return None
+
+
+def _first_hits(evaluator: PixelEvaluator, pixel: tuple[int, int]) -> list[FirstHit] | None:
+    try:
+        return evaluator.first_hits(*pixel)
+    except UndecidableError:
+        return None
+
+
+def _brightest(colors: list[_Colors | None]) -> float:
+    """The largest value of the image, as far as it is known."""
+    known = [box for color in colors if color for box in color.boxes]
+    return max((float(channel.mid()) for box in known for channel in box), default=0.0)
 
 
 Bounds = list[tuple[float, float]]
 
 
-def _color_bounds(evaluator: PixelEvaluator, pixel: tuple[int, int]) -> list[Bounds]:
-    try:
-        return [_bounds(box) for box in evaluator.colors(*pixel)]
-    except UndecidableError:
-        return []
-
-
-def _hit_bounds(evaluator: PixelEvaluator, pixel: tuple[int, int]) -> list[tuple[int, Bounds]]:
-    try:
-        hits = evaluator.first_hits(*pixel)
-    except UndecidableError:
-        return []
-    if not all(value.is_finite() for hit in hits for value in hit.values):
-        return []  # a triangle seen edge on may be met anywhere
-    return [(hit.primitive, _hit_values(hit)) for hit in hits]
-
-
-def _hit_values(hit: FirstHit) -> Bounds:
-    return _bounds(hit.values) if hit.values else [(np.nan, np.nan)] * HIT_VALUES
+def _as_arrays(
+    scene: Scene, error_model: ErrorModel, colors: list[_Colors | None], hits: list[list[FirstHit] | None]
+) -> FeasibleSet:
+    size = (scene.camera.height, scene.camera.width)
+    boxes = [[_bounds(box) for box in color.boxes] if color else [] for color in colors]
+    low, high = error_model.output.interval_read(*_gathered(boxes, size, 3))
+    hit_bounds = [[_bounds(hit.values or NO_VALUES) for hit in of_pixel or ()] for of_pixel in hits]
+    hit_low, hit_high = FIRST_HIT_OUTPUT.interval_read(*_gathered(hit_bounds, size, HIT_VALUES))
+    primitives = np.full((len(hits), hit_low.shape[2]), UNUSED)
+    for place, of_pixel in enumerate(hits):
+        primitives[place, : len(of_pixel or ())] = [hit.primitive for hit in of_pixel or ()]
+    merged = np.array([color is not None and color.merged for color in colors])
+    return FeasibleSet(low, high, merged.reshape(size), primitives.reshape(hit_low.shape[:3]), hit_low, hit_high)
 
 
 def _bounds(balls: Iterable[Any]) -> Bounds:

@@ -15,7 +15,7 @@ from flint import arb, ctx
 from reference_tracer.arithmetic import Arithmetic
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
 
 class Decisions:
@@ -38,29 +38,63 @@ class Decisions:
         return self.answers[self.position - 1]
 
 
-def ball_arithmetic(
-    precision_bits: int, decisions: Decisions, overrides: dict[str, Callable[..., Any]] | None = None
-) -> Arithmetic:
-    """Balls whose midpoints have `precision_bits` bits; sets the precision of this process.
+# More than the arithmetic that is followed: what the balls lose themselves is then far below a unit roundoff.
+MARGIN_BITS = 32
 
-    A ball holds what exact arithmetic gives. With the bits of a renderer's number type its radius also follows what
-    that arithmetic may have done to the value, but it is no proof of that: a renderer rounds once more at each step.
+
+def ball_arithmetic(
+    precision_bits: int, decisions: Decisions, constants: Mapping[str, Any] | None = None
+) -> Arithmetic:
+    """Balls with midpoints of `precision_bits` bits: what exact arithmetic gives. Sets the precision of this process.
+
+    `constants` are further names that the kernel's source may use.
     """
     ctx.prec = precision_bits
-    unit_roundoff = arb(2) ** -precision_bits
+    return Arithmetic(
+        f"balls of {precision_bits} bits", arb, _functions(decisions, constants), decided_comparisons=True
+    )
 
-    def number(value: float) -> Any:
-        """A scene's number as the renderer stores it: exact if it fits, else within a unit roundoff."""
-        exact = arb(value)
-        rounded = +exact
-        return exact if rounded.rad() == 0 else arb(exact.mid(), abs(exact) * unit_roundoff)
 
-    functions = {
+def rounded_ball_arithmetic(
+    precision_bits: int, decisions: Decisions, constants: Mapping[str, Any] | None = None
+) -> Arithmetic:
+    """Balls that hold what a renderer may get whose operations err by at most 2^-precision_bits, relatively.
+
+    Each result of an operation is widened by that much. Sets the precision of this process.
+    """
+    ctx.prec = precision_bits + MARGIN_BITS
+    about_one = arb(1, arb(2) ** -precision_bits)
+
+    def rounded(result: Any) -> Any:
+        return result * about_one if type(result) is arb else result  # whole numbers are exact
+
+    functions = _functions(decisions, constants)
+    functions.update({name: _rounding(functions[name], about_one) for name in ("exp", "pi", "power", "sqrt", "tan")})
+    functions["rounded"] = rounded
+    return Arithmetic(
+        f"rounded balls of {precision_bits} bits",
+        lambda value: stored_number(value, precision_bits),
+        functions,
+        decided_comparisons=True,
+        rounded_operations=True,
+    )
+
+
+def stored_number(value: float, precision_bits: int) -> Any:
+    """A scene's number as a renderer stores it: exact if it fits, else within a unit roundoff."""
+    exact = arb(value)
+    if not math.isfinite(value) or (math.frexp(value)[0] * 2.0**precision_bits).is_integer():
+        return exact
+    return exact * arb(1, arb(2) ** -precision_bits)
+
+
+def _functions(decisions: Decisions, constants: Mapping[str, Any] | None) -> dict[str, Any]:
+    return {
         **comparison_functions(decisions),
         "certainly_less": lambda a, b: a < b,
         "certainly_zero": lambda a: a == 0,
         "exp": lambda x: x.exp(),
-        "floor": lambda x: _floor(x, decisions),
+        "floor": lambda x: decided_floor(x, decisions),
         "inf": arb(math.inf),
         "max": lambda a, b: a.max(b),
         "min": lambda a, b: a.min(b),
@@ -68,9 +102,15 @@ def ball_arithmetic(
         "power": _power,
         "sqrt": _sqrt,
         "tan": lambda x: x.tan(),
-        **(overrides or {}),
+        **(constants or {}),
     }
-    return Arithmetic(f"balls of {precision_bits} bits", number, functions, decided_comparisons=True)
+
+
+def _rounding(function: Any, about_one: Any) -> Any:
+    """A function, or a constant, whose result is rounded."""
+    if not callable(function):
+        return function * about_one
+    return lambda *arguments: function(*arguments) * about_one
 
 
 def every_outcome(run: Callable[[], Any], decisions: Decisions, limit: int) -> Iterator[Any]:
@@ -128,7 +168,7 @@ def comparison_functions(decisions: Decisions) -> dict[str, Callable[[Any, Any],
     }
 
 
-def _floor(x: Any, decisions: Decisions) -> int:
+def decided_floor(x: Any, decisions: Decisions) -> int:
     """The whole number below x; where that is undecided, one of two in a row, since only its parity is ever used."""
     if not x.is_finite():
         return int(decisions.next())
@@ -142,7 +182,7 @@ def _sqrt(x: Any) -> Any:
     """The root of the part of x that is not negative: the source takes roots only of what it decided to be so."""
     if x >= 0:
         return x.sqrt()
-    return _from_zero_to(x.upper().sqrt())
+    return from_zero_to(x.upper().sqrt())
 
 
 def _power(base: Any, exponent: Any) -> Any:
@@ -152,10 +192,10 @@ def _power(base: Any, exponent: Any) -> Any:
     upper = base.upper()
     if upper <= 0:
         return arb(0)
-    return _from_zero_to(upper**exponent)
+    return from_zero_to(upper**exponent)
 
 
-def _from_zero_to(largest: Any) -> Any:
+def from_zero_to(largest: Any) -> Any:
     """A ball that holds everything between 0 and the ball `largest`."""
     half = largest.upper() / 2
     return arb(half.mid(), half.upper())

@@ -1,0 +1,125 @@
+"""Rays as a renderer may compute them: each stands for all the rays that rounding may make of one.
+
+Two ways to follow them. `PlainRays` are quick: every number is a ball. `LinkedRays` are tight, and some twenty times
+slower: numbers know which errors they share, so a bundle of rays keeps its shape from bounce to bounce.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+from flint import arb
+
+from comparisons.ray_offsets import offset_constants, offset_overrides
+from reference_tracer.balls import Decisions, rounded_ball_arithmetic
+from reference_tracer.linked_arithmetic import linked_arithmetic
+from reference_tracer.linked_balls import condensed, enclosure
+from reference_tracer.rendering import prepare
+from reference_tracer.traversal import NOTHING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from comparisons.error_model import ErrorModel
+    from reference_tracer.rendering import PreparedScene
+    from scenes.scene import Scene
+
+    Overrides = Mapping[str, Callable[..., object]]
+
+Box = tuple[Any, Any, Any]
+"""A ball for each channel."""
+Ray = tuple[Any, ...]
+"""As in reference_tracer/ray_tree.py: numbers of the way chosen, except the weight, which is a box."""
+
+
+class RoundedRays(Protocol):
+    """A way to follow rays through one scene. Undecided comparisons ask the decisions."""
+
+    prepared: PreparedScene
+    decisions: Decisions
+
+    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+        """Origin and direction through the centre of a pixel."""
+
+    def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
+        """What a ray brings by itself, and the rays that go on from its end."""
+
+    def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
+        """The primitive that a primary ray meets (-1: none), and balls for distance, position and normal."""
+
+
+class PlainRays:
+    """Rays whose numbers are balls, obeying RoundedRays."""
+
+    def __init__(self, scene: Scene, error_model: ErrorModel, overrides: Overrides | None = None) -> None:
+        self.decisions = Decisions()
+        arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions, offset_constants(error_model))
+        self.prepared = prepare(scene, arithmetic, {**offset_overrides(error_model), **(overrides or {})})
+        self._frame = self.prepared.kernel.camera_frame(self.prepared.data)
+
+    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+        """As the protocol says."""
+        ray: tuple[Any, Any] = self.prepared.kernel.primary_ray(self._frame, arb(column + 0.5), arb(line + 0.5))
+        return ray
+
+    def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
+        """As the protocol says."""
+        children: list[Ray] = []
+        local: Box = self.prepared.kernel.trace_ray(self.prepared.data, ray, children)
+        return local, children
+
+    def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
+        """As the protocol says."""
+        return first_hit(self.prepared, origin, direction)
+
+
+class LinkedRays:
+    """Rays whose numbers are linked balls, obeying RoundedRays."""
+
+    def __init__(self, scene: Scene, error_model: ErrorModel, overrides: Overrides | None = None) -> None:
+        self.decisions = Decisions()
+        arithmetic = linked_arithmetic(error_model.precision_bits, self.decisions, offset_constants(error_model))
+        self.prepared = prepare(scene, arithmetic, {**offset_overrides(error_model), **(overrides or {})})
+        frame = self.prepared.kernel.camera_frame(self.prepared.data)
+        numbers = iter(condensed([number for vector in frame for number in vector]))
+        self._frame = tuple(tuple(next(numbers) for _ in vector) for vector in frame)
+
+    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+        """As the protocol says."""
+        number = self.prepared.arithmetic.number
+        origin, direction = self.prepared.kernel.primary_ray(self._frame, number(column + 0.5), number(line + 0.5))
+        return _condensed_ray(origin, direction)
+
+    def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
+        """As the protocol says."""
+        kernel, arithmetic = self.prepared.kernel, self.prepared.arithmetic
+        origin, direction, weight, *rest = ray
+        linked_weight = tuple(arithmetic.functions["ball"](channel) for channel in weight)
+        children: list[Ray] = []
+        local = kernel.trace_ray(self.prepared.data, (origin, direction, linked_weight, *rest), children)
+        return _box(local), [(*_condensed_ray(child[0], child[1]), _box(child[2]), *child[3:]) for child in children]
+
+    def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
+        """As the protocol says."""
+        primitive, values = first_hit(self.prepared, origin, direction)
+        return primitive, tuple(enclosure(value) for value in values)
+
+
+def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
+    """What a ray meets first: its number, and seven numbers for distance, position and normal; none for nothing."""
+    kernel, data = prepared.kernel, prepared.data
+    distance, primitive = kernel.nearest_hit(data, origin, direction, NOTHING)
+    if primitive == NOTHING:
+        return NOTHING, ()
+    point = kernel.along(origin, direction, distance)
+    return primitive, (distance, *point, *kernel.surface_normal(data, primitive, point))
+
+
+def _condensed_ray(origin: Any, direction: Any) -> tuple[Any, Any]:
+    x, y, z, dx, dy, dz = condensed([*origin, *direction])
+    return (x, y, z), (dx, dy, dz)
+
+
+def _box(color: Any) -> Box:
+    red, green, blue = (enclosure(channel) for channel in color)
+    return red, green, blue
