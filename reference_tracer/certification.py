@@ -108,7 +108,7 @@ class Certifier:
         except TooManyOutcomesError:
             outcomes = (NOTHING_KNOWN,)
         found = _hull(outcomes)
-        if decisions.sentences and max(found.radius) <= TWO_ROUNDINGS * max(found.middle):
+        if decisions.sentences and max(found.radius) <= TWO_ROUNDINGS * min(max(found.middle), LARGEST_FLOAT):
             return CertifiedPixel(found.middle, found.radius, MOST_BITS)  # ties without a consequence
         origin, direction = evaluator.primary_ray(column, line)
         known = outcomes if found != NOTHING_KNOWN else ()

@@ -12,10 +12,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from types import FrameType
 
+_SPHERE = "touches a sphere exactly, or starts exactly on one that it has not left"
 _TRIANGLE = "meets exactly an edge or a corner of a triangle, lies in its plane, or starts on it"
 
 MEANINGS = {
-    "sphere_distance": "touches a sphere exactly, or starts exactly on one that it has not left",
+    "sphere_distance": _SPHERE,
+    "root_outside": _SPHERE,
+    "root_inside": "starts inside a sphere exactly where it is nearest to its centre",
     "distance_to_other_side": "leaves a sphere exactly along its tangent plane",
     "triangle_distance": _TRIANGLE,
     "distance_to_triangle": _TRIANGLE,

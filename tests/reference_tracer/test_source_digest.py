@@ -1,0 +1,8 @@
+from __future__ import annotations
+
+from reference_tracer.source_digest import source_digest
+
+
+def test_a_digest_is_the_same_again_and_another_for_other_packages() -> None:
+    assert source_digest("scenes") == source_digest.__wrapped__("scenes")
+    assert len({source_digest("scenes"), source_digest("scenes", "reference_tracer"), source_digest("no such")}) == 3
