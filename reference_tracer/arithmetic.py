@@ -10,6 +10,7 @@ import numpy as np
 
 from reference_tracer.compilation import compiled_module, compiled_text
 from reference_tracer.instantiation import COMPILED_ENTRY_POINTS, ENTRY_POINTS, kernel_source
+from reference_tracer.variants import PLAIN_FORMS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
@@ -31,6 +32,9 @@ class Arithmetic:
     """Replace what the source imports from `math` or defines itself, by name."""
     compiled: bool = False
     decided_comparisons: bool = False
+    """For balls: comparisons are calls, and forms that only rounding calls for are left out."""
+    rounded_operations: bool = False
+    """Each operation is followed by a call that rounds its result."""
 
     def numbers(self, values: NDArray[np.float64]) -> Any:
         """One-dimensional values as numbers of this type: an array for compiled code, else a list, which is quicker."""
@@ -75,11 +79,13 @@ def make_kernel(
     overrides: Mapping[str, Callable[..., object]] | None = None,
 ) -> Kernel:
     """The tracer for one number type, with these features and no others, and with some functions overridden."""
+    forms = PLAIN_FORMS if arithmetic.decided_comparisons else {}
     source, literals = kernel_source(
         features,
-        overrides,
+        {**forms, **(overrides or {})},
         entry_points=COMPILED_ENTRY_POINTS if arithmetic.compiled else ENTRY_POINTS,
         decided_comparisons=arithmetic.decided_comparisons,
+        rounded_operations=arithmetic.rounded_operations,
     )
     if arithmetic.compiled:
         number_type = np.dtype(type(arithmetic.number(0.0))).name

@@ -4,7 +4,8 @@ The source files are parsed and joined into one module, in which
 - `if MIRRORS:` and the like are decided, so that the kernel holds what the scene requires and nothing else;
 - a function may be overridden by another of the same signature (a variant, or a fault);
 - numeric literals are named constants, to be made of the kernel's number type;
-- for balls, comparisons and powers are calls, to be decided by three-valued logic.
+- for balls, comparisons and powers are calls, to be decided by three-valued logic;
+- for balls that follow a renderer's rounding, each operation is followed by a call that rounds it.
 
 What comes out is a readable Python file, which is what runs and what the compiler sees.
 """
@@ -27,6 +28,7 @@ SOURCE_FILES = (
     "scene_data",
     "vector",
     "camera",
+    "compensated",
     "sphere",
     "triangle",
     "bounding_volume",
@@ -77,6 +79,7 @@ def kernel_source(
     *,
     entry_points: tuple[str, ...] = ENTRY_POINTS,
     decided_comparisons: bool = False,
+    rounded_operations: bool = False,
 ) -> tuple[str, dict[str, float]]:
     """The kernel as Python text, and the literals it uses by the names that they have in it.
 
@@ -94,7 +97,8 @@ def kernel_source(
     body: list[ast.stmt] = [constant for name, constant in constants.items() if _mentions(reached, name)]
     for function in reached:
         named = literals.visit(function)
-        body.append(_ComparisonCalls().visit(named) if decided_comparisons else named)
+        decided = _ComparisonCalls().visit(named) if decided_comparisons else named
+        body.append(_RoundingCalls().visit(decided) if rounded_operations else decided)
     return ast.unparse(ast.fix_missing_locations(ast.Module(body=body, type_ignores=[]))), literals.names
 
 
@@ -224,3 +228,11 @@ class _ComparisonCalls(ast.NodeTransformer):
         if isinstance(node.op, ast.Pow):
             return ast.Call(func=ast.Name(id="power", ctx=ast.Load()), args=[node.left, node.right], keywords=[])
         return node
+
+
+class _RoundingCalls(ast.NodeTransformer):
+    """Turns a + b into rounded(a + b), and so on."""
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
+        node.left, node.right = self.visit(node.left), self.visit(node.right)
+        return ast.Call(func=ast.Name(id="rounded", ctx=ast.Load()), args=[node], keywords=[])

@@ -1,7 +1,8 @@
 """Intersection of a ray and a sphere (docs/spec.md, SPH).
 
-With o the origin, d the direction, c the centre and r the radius, the ray meets the sphere where
-|o + t·d - c|² = r², a quadratic in t: (d·d)·t² + 2·(d·(o-c))·t + |o-c|² - r² = 0.
+With o the origin, d the direction, c the centre and r the radius, the ray meets the sphere where |o + t·d - c|² = r².
+Divided by d², that is t² - 2·f·t + k = 0: f is the ray's foot, where it comes closest to the centre, and k =
+(|o-c|² - r²)/d² the product of both roots.
 """
 
 from __future__ import annotations
@@ -9,6 +10,8 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING
 
+from reference_tracer.bounding_volume import certainly_less
+from reference_tracer.compensated import sphere_constant
 from reference_tracer.vector import along, dot, scale, subtract
 
 if TYPE_CHECKING:
@@ -18,32 +21,52 @@ if TYPE_CHECKING:
 def sphere_distance(origin: Vector, direction: Vector, center: Vector, radius: Scalar) -> Scalar:
     """The smallest positive root t, or infinity where the ray misses; a tangent ray hits.
 
-    From outside the discriminant is taken from the distance between centre and line (Haines, Günther, Akenine-Möller,
-    "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems 2019, ch. 7, eq. 5), which does not cancel
-    for far spheres; from inside both terms of the textbook's have one sign. The roots come from their product, which
-    does not cancel either (ibid., eq. 10 to 12).
+    The squared half chord is f² - k, or r² less the squared distance between centre and line, over d² (Haines, Günther,
+    Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems 2019, ch. 7, eq. 5). Rounding
+    shifts the first in proportion to |f·d|, the second in proportion to that distance. Near a tangent, where it
+    matters, the distance is r, and (f·d)² = |o-c|² - r²: so the first is better up to |o-c|² = 2·r², if its constant
+    term does not cancel (sphere_constant), and the second beyond.
+    Valid where no square of a number, nor of a quotient |o-c|/|d|, overflows or vanishes; beyond, the result may be
+    NaN, which is nearer than nothing. An input of NaN is never hit.
     """
     to_origin = subtract(origin, center)
     direction_squared = dot(direction, direction)
     half_linear = dot(direction, to_origin)
-    constant = dot(to_origin, to_origin) - radius * radius
-    if constant < 0.0:  # inside
-        root = sqrt(half_linear * half_linear - direction_squared * constant)
+    radius_squared = radius * radius
+    constant = dot(to_origin, to_origin) - radius_squared
+    if certainly_less(radius_squared, constant):
         if half_linear < 0.0:
-            return (root - half_linear) / direction_squared
-        return -constant / (half_linear + root)
-    if half_linear >= 0.0:
-        return inf  # moving away
-    foot = -half_linear / direction_squared
-    closest = along(to_origin, direction, foot)
-    discriminant = direction_squared * (radius * radius - dot(closest, closest))
-    if discriminant < 0.0:
+            foot = -half_linear / direction_squared
+            closest = along(to_origin, direction, foot)
+            gap = radius_squared - dot(closest, closest)
+            return root_outside(foot, gap / direction_squared, constant / direction_squared)
         return inf
-    larger = sqrt(discriminant) - half_linear
-    if constant > 0.0:
-        # The nearer root lies before the foot; a quotient of two numbers that are nearly zero may not.
-        return min(constant / larger, foot)
-    return larger / direction_squared
+    constant = sphere_constant(origin, center, radius)
+    foot = -half_linear / direction_squared
+    product = constant / direction_squared
+    if constant < 0.0:
+        return root_inside(foot, product)
+    if foot > 0.0:
+        return root_outside(foot, foot * foot - product, product)
+    return inf
+
+
+def root_outside(foot: Scalar, half_chord_squared: Scalar, product: Scalar) -> Scalar:
+    """The nearer of two positive roots, taken from their product, since foot - half chord cancels (ibid., eq. 10)."""
+    if half_chord_squared >= 0.0:
+        farther = foot + sqrt(half_chord_squared)
+        if product > 0.0:
+            return product / farther
+        return farther  # the nearer root is the start itself
+    return inf
+
+
+def root_inside(foot: Scalar, product: Scalar) -> Scalar:
+    """The positive one of two roots of different signs, as the sum or the quotient of two numbers of one sign."""
+    half_chord = sqrt(foot * foot - product)
+    if foot > 0.0:
+        return foot + half_chord
+    return product / (foot - half_chord)
 
 
 def distance_to_other_side(origin: Vector, direction: Vector, center: Vector) -> Scalar:

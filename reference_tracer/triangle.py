@@ -1,7 +1,7 @@
 """Intersection of a ray and a triangle (docs/spec.md, TRI).
 
-The ray o + t·d meets the plane of a, b, c where o + t·d = a + u·(b-a) + v·(c-a): three equations for t, u and v, solved
-by Cramer's rule (Möller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997, eq. 4 to 6).
+Seen along the ray, the triangle is one of the plane, and the ray the plane's origin. It hits where the origin is on the
+same side of all three edges; t is then the mean of the corners' depths, weighted by the areas that they face.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from reference_tracer.vector import cross, dot, normalize, subtract
+from reference_tracer.vector import cross, normalize, subtract
 
 if TYPE_CHECKING:
     from reference_tracer.numbers import Scalar, Vector
@@ -18,30 +18,54 @@ if TYPE_CHECKING:
 def triangle_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c: Vector) -> Scalar:
     """The positive t at which the ray meets the triangle, edges included, or infinity.
 
-    A ray in the plane of the triangle misses, and so nothing hits a triangle of zero area. The three conditions
-    u >= 0, v >= 0, u + v <= 1 are decided before dividing by the determinant, so that no scale is too small.
+    Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", 2013: the axis along which the direction is longest
+    becomes the last one, and a shear turns the ray into it. A corner has then the same place in the plane for all
+    triangles that share it, and rounding keeps the order of two products, so that the sign of x·y' - y·x' is right or
+    the difference is 0. Since 0 counts as inside, no ray passes between triangles that share an edge or a corner; it
+    may hit both. A ray in the plane of the triangle misses, and so nothing hits a triangle of zero area.
+    Valid where no product of two coordinates overflows or vanishes.
     """
-    first_edge = subtract(b, a)
-    second_edge = subtract(c, a)
-    normal = cross(first_edge, second_edge)
-    determinant = -dot(direction, normal)
-    to_origin = subtract(origin, a)
-    moment = cross(to_origin, direction)
-    if determinant > 0.0:
-        u = dot(second_edge, moment)
-        v = -dot(first_edge, moment)
-        t = dot(to_origin, normal)
-    elif determinant < 0.0:
-        determinant = -determinant
-        u = -dot(second_edge, moment)
-        v = dot(first_edge, moment)
-        t = -dot(to_origin, normal)
-    else:
+    axis = longest_axis(direction)
+    ray = turned(direction, axis)
+    shear_x = ray[0] / ray[2]
+    shear_y = ray[1] / ray[2]
+    ax, ay, a_depth = sheared(turned(subtract(a, origin), axis), shear_x, shear_y)
+    bx, by, b_depth = sheared(turned(subtract(b, origin), axis), shear_x, shear_y)
+    cx, cy, c_depth = sheared(turned(subtract(c, origin), axis), shear_x, shear_y)
+    u = cx * by - cy * bx
+    v = ax * cy - ay * cx
+    w = bx * ay - by * ax
+    if (u < 0.0 or v < 0.0 or w < 0.0) and (u > 0.0 or v > 0.0 or w > 0.0):
         return inf
-    # The edges first: from a coplanar neighbour, as in a floor of two triangles, t is 0 and undecidable in balls.
-    if u < 0.0 or v < 0.0 or u + v > determinant or t <= 0.0:
+    area = u + v + w
+    if area == 0.0:
         return inf
-    return t / determinant
+    distance = (u * a_depth + v * b_depth + w * c_depth) / area / ray[2]
+    if distance > 0.0:
+        return distance
+    return inf
+
+
+def longest_axis(direction: Vector) -> int:
+    """The axis along which the direction is longest; the last of equals."""
+    x, y, z = abs(direction[0]), abs(direction[1]), abs(direction[2])
+    if z >= x and z >= y:
+        return 2
+    return 1 if y >= x else 0
+
+
+def turned(a: Vector, last: int) -> Vector:
+    """The vector's parts in cyclic order, so that the given axis is the last one."""
+    if last == 2:
+        return a
+    if last == 1:
+        return (a[2], a[0], a[1])
+    return (a[1], a[2], a[0])
+
+
+def sheared(a: Vector, shear_x: Scalar, shear_y: Scalar) -> Vector:
+    """The place in the plane across the ray, and the depth along its longest axis."""
+    return (a[0] - shear_x * a[2], a[1] - shear_y * a[2], a[2])
 
 
 def triangle_normal(a: Vector, b: Vector, c: Vector) -> Vector:
