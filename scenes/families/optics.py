@@ -119,5 +119,7 @@ def nested_dielectrics(parameter: float, seed: int) -> Scene:
         max_depth=2 * len(names) + 2,
         background=SKY,
         materials=media,
-        objects=[sphere(name, (k * dx, k * dy, k * dz), 1.0 - 0.2 * k) for k, name in enumerate(names)],
+        objects=[
+            sphere(name, ((k + 1) * dx, (k + 1) * dy, (k + 1) * dz), 1.0 - 0.2 * k) for k, name in enumerate(names)
+        ],
     )

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 def scale(parameter: float, seed: int) -> Scene:
     """A matt sphere, a mirror, glass and a floor, all lengths multiplied by the parameter.
 
-    The image must not depend on the scale, since attenuation and absorption are scaled along: no length is too small
-    or too large for an epsilon (the truth knows none). 1e-9 and 1e9 are what float32 can hold: the square of a
+    The image must not depend on the scale, since attenuation and absorption are scaled along: the truth knows neither
+    an epsilon (SHAD-4) nor a farthest distance (TRAV-1). 1e-9 and 1e9 are what float32 can hold: the square of a
     triangle's normal is the fourth power of a length, and its numbers end at 1e-38 and 3e38.
     """
     dx, dy, dz = untidy(seed)
