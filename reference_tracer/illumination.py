@@ -122,7 +122,8 @@ def direct_light(
         return (0.0, 0.0, 0.0)
     toward_light = normalize(to_light)
     cosine = dot(normal, toward_light)
-    if cosine <= 0.0:
+    faces_light = cosine > 0.0
+    if not faces_light:  # also where the light is at the point itself, and so has no direction and no cosine
         return (0.0, 0.0, 0.0)
     if is_shadowed(scene, primitive, point, normal, to_light, light_is_near):
         return (0.0, 0.0, 0.0)

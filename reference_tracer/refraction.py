@@ -30,9 +30,10 @@ def fresnel_reflectance(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
 
     R = r_s²/2·(1 + (r_p/r_s)²) with r_p/r_s = (c·g - s²)/(c·g + s²) and s² = 1 - c² (Cook, Torrance, "A Reflectance
     Model for Computer Graphics", 1982, section "The Fresnel Term"). The numerator of r_s = (c - g)/(c + g) is rewritten
-    by g² - c² = η² - 1, so that nothing cancels where η is near 1; the quotient is in [-1, 1] however g is rounded.
+    by g² - c² = η² - 1, so that nothing cancels where η is near 1; the quotient is in [-1, 1] however g is rounded. A
+    cosine whose square underflows counts as grazing: for equal indices (g + c)² would underflow as well, and R be 0/0.
     """
-    if cosine == 0.0:
+    if cosine * cosine == 0.0:
         return 1.0
     perpendicular = (ratio - 1.0) * (ratio + 1.0) / ((g + cosine) * (g + cosine))
     sine_squared = (1.0 - cosine) * (1.0 + cosine)
