@@ -106,28 +106,31 @@ def sweep_back(*results: Link) -> Sweep:
     for number, factor in results:
         derivatives[number.age] = derivatives.get(number.age, ZERO) + factor
         numbers[number.age] = number
-    waiting = [-age for age in numbers]
+    waiting = [-number.age for number in numbers.values() if number.links]
     heapify(waiting)
-    symbols: list[Link] = []
     error = ZERO
     while waiting:
         age = -heappop(waiting)
         number, derivative = numbers[age], derivatives.pop(age)
-        if number.is_symbol:
-            symbols.append((number, derivative))
-            continue
         if number.error is not ZERO:
             error = error + abs(derivative) * number.error
             derivative = derivative * number.about_one
         for source, slope in number.links:
             source_age = source.age
             known = derivatives.get(source_age)
-            if known is None:
+            if known is not None:
+                derivatives[source_age] = known + derivative * slope
+            elif source.links or source.error is not ZERO:  # exact constants change nothing
                 derivatives[source_age] = derivative * slope
                 numbers[source_age] = source
-                heappush(waiting, -source_age)
-            else:
-                derivatives[source_age] = known + derivative * slope
+                if source.links:
+                    heappush(waiting, -source_age)
+    symbols: list[Link] = []
+    for age, derivative in derivatives.items():  # what is left was not made from anything
+        if numbers[age].is_symbol:
+            symbols.append((numbers[age], derivative))
+        else:
+            error = error + abs(derivative) * numbers[age].error
     return Sweep(symbols, error)
 
 
@@ -173,7 +176,7 @@ def condensed(numbers: Sequence[LinkedBall]) -> list[LinkedBall]:
 
 def new_symbol(like: LinkedBall) -> LinkedBall:
     """A number of which nothing is known but that it lies in [-1, 1]."""
-    symbol = like.__class__(ZERO, WITHIN_ONE)
+    symbol = like.__class__(ZERO, WITHIN_ONE, (), ONE)
     symbol.is_symbol = True
     return symbol
 
