@@ -1,16 +1,37 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import sqrt
+from math import isfinite, log2, sqrt
+from typing import TYPE_CHECKING
 
-from hypothesis import assume, given
+import pytest
+from flint import arb, ctx
+from hypothesis import assume, given, target
 from hypothesis import strategies as st
 
-from reference_tracer.refraction import fresnel_reflectance, medium_transmittance, snell_discriminant
-from tests.properties.exact import cross, dot, gamma
-from tests.properties.strategies import Refraction, cosines_and_ratios, rational_refractions
-from tests.reference_tracer.kernels import exact_kernel
+from reference_tracer.refraction import (
+    fresnel_reflectance,
+    medium_transmittance,
+    refracted_direction,
+    snell_discriminant,
+)
+from tests.properties.exact import cross, dot, exact, gamma
+from tests.properties.optical_strategies import EXTREME_RATIOS, incidences
+from tests.properties.strategies import Refraction, cosines_and_ratios, directions, perpendiculars, rational_refractions
+from tests.reference_tracer.kernels import exact_kernel, kept_precision
 from tests.reproduction import note_case
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from tests.properties.strategies import Vector
+
+
+@pytest.fixture(scope="module")
+def balls_of_400_bits() -> Iterator[None]:
+    for _ in kept_precision():
+        ctx.prec = 400  # a cosine's square has 106 bits, and nearly equal indices cancel 50 of them again and again
+        yield
 
 
 def born_wolf(cosine: Fraction, g: Fraction, ratio: Fraction) -> Fraction:
@@ -134,3 +155,103 @@ def test_a_medium_transmits_a_part_of_the_light_and_less_the_longer_the_way(
     assert transmittance[2] == 1
     longer = medium_transmittance((a, b, 0.0), 2 * distance)
     assert all(after <= before for before, after in zip(transmittance, longer, strict=True))
+
+
+def doubt_of_discriminant(cosine: float, ratio: float) -> Fraction:
+    """How far rounding may move g²: three roundings in (η-1)·(η+1), one in c², one in the sum; and underflow."""
+    c, eta = Fraction(cosine), Fraction(ratio)
+    return gamma(4) * (abs(eta**2 - 1) + c**2) + Fraction(2) ** -1073
+
+
+def ball_of(exact_value: Fraction, radius: Fraction = Fraction(0)) -> arb:
+    """A ball that holds everything up to `radius` from a rational number."""
+    value = arb(exact_value.numerator) / exact_value.denominator
+    return value + arb(0, arb(radius.numerator) / radius.denominator)
+
+
+def born_wolf_in_balls(c: arb, g: arb, eta: arb) -> arb:
+    """As born_wolf."""
+    across = (c - g) / (c + g)
+    within = (eta**2 * c - g) / (eta**2 * c + g)
+    return (across**2 + within**2) / 2
+
+
+@given(incidences())
+def test_a_reflectance_at_the_extremes_is_a_finite_fraction(case: tuple[float, float]) -> None:
+    cosine, ratio = case
+    discriminant = snell_discriminant(cosine, ratio)
+    assert isfinite(discriminant)
+    assume(discriminant >= 0)
+    note_case(cosine=cosine, ratio=ratio)
+    reflectance = fresnel_reflectance(cosine, sqrt(discriminant), ratio)
+    # As in the property for tame cases; a cosine beyond 1 by four units makes the quotient exceed 1 by its share of g.
+    assert 0 <= reflectance <= 1 + gamma(40) / Fraction(min(ratio, 1.0))
+    assert reflectance + (1.0 - reflectance) == pytest.approx(1.0, abs=2.0**-53)
+
+
+@pytest.mark.usefixtures("balls_of_400_bits")
+@given(incidences())
+def test_a_reflectance_at_the_extremes_is_that_of_an_angle_within_rounding(case: tuple[float, float]) -> None:
+    cosine, ratio = case
+    discriminant = snell_discriminant(cosine, ratio)
+    assume(discriminant >= 0)
+    assume(2.0**-500 < cosine <= 1)
+    note_case(cosine=cosine, ratio=ratio)
+    computed = fresnel_reflectance(cosine, sqrt(discriminant), ratio)
+    c, eta = Fraction(cosine), Fraction(ratio)
+    discriminants = [eta**2 - 1 + c**2 + sign * doubt_of_discriminant(cosine, ratio) for sign in (-1, 0, 1)]
+    lowest, g, highest = (ball_of(max(Fraction(0), g2)).sqrt() for g2 in discriminants)
+    # All that R can be with a g that far off, as a ball: in the form whose factors are each known to a few roundings.
+    some_g = lowest.union(highest)
+    sine_squared = ball_of(1 - c**2)
+    across = ball_of(eta**2 - 1) / (ball_of(c) + some_g) ** 2
+    within = (ball_of(c) * some_g - sine_squared) / (ball_of(c) * some_g + sine_squared)
+    possible = across**2 / 2 * (1 + within**2)
+    true = born_wolf_in_balls(ball_of(c), g, ball_of(eta))
+    assert possible.overlaps(true)
+    assert (possible * (1 + ball_of(Fraction(0), gamma(40)))).contains(arb(computed))
+    if true > 0:
+        error = float(abs(arb(computed) / true - 1))
+        target(log2(max(error, 2.0**-60)) + 53, label="bits of reflectance lost")
+
+
+@given(incidences())
+def test_total_reflection_at_the_extremes_is_decided_rightly_but_within_rounding(case: tuple[float, float]) -> None:
+    cosine, ratio = case
+    note_case(cosine=cosine, ratio=ratio)
+    exactly = Fraction(ratio) ** 2 - 1 + Fraction(cosine) ** 2
+    computed = snell_discriminant(cosine, ratio)
+    error = abs(Fraction(computed) - exactly)
+    assert error <= doubt_of_discriminant(cosine, ratio)
+    if exactly:
+        target(min(100.0, log2(max(float(error / abs(exactly)), 2.0**-60)) + 53), label="bits of g² lost")
+
+
+@given(directions(), st.data(), EXTREME_RATIOS, st.floats(0, 1), st.sampled_from([1.0, -1.0]))
+def test_a_refracted_direction_is_as_long_as_the_index_ratio_lets_it_be_known(
+    normal: Vector, data: st.DataObject, ratio: float, sine: float, side: float
+) -> None:
+    tangent = data.draw(perpendiculars(normal))
+    cosine = sqrt((1.0 - sine) * (1.0 + sine))
+    direction = tuple(side * sine * t - cosine * n for t, n in zip(tangent, normal, strict=True))
+    c = -sum(d * n for d, n in zip(direction, normal, strict=True))
+    discriminant = snell_discriminant(c, ratio)
+    assume(c >= 0)
+    assume(discriminant >= 0)
+    note_case(direction=direction, normal=normal, ratio=ratio)
+    refracted = refracted_direction(direction, normal, c, sqrt(discriminant), ratio)  # type: ignore[arg-type] # a triple
+    squared = dot(exact(refracted), exact(refracted))
+    # |d + (c - g)n|² = |d|² - c² + g² = η² where d, n and c are exact. They are off by γ(8) each (the unit vectors by
+    # their normalisation, c by γ(3), d by its making), g² by γ(4)·(|η² - 1| + c²); all of it divided by η².
+    eta = Fraction(ratio)
+    assert abs(squared - 1) <= gamma(64) * (1 + 1 / eta + 1 / eta**2)
+
+
+@given(st.sampled_from([float("nan"), float("inf")]), incidences())
+def test_what_is_not_a_number_never_becomes_one(wrong: float, case: tuple[float, float]) -> None:
+    cosine, ratio = case
+    assert not isfinite(snell_discriminant(wrong, ratio))
+    assert not isfinite(snell_discriminant(cosine, wrong))
+    assume(cosine * cosine > 0)
+    assert not fresnel_reflectance(cosine, float("nan"), ratio) >= 0
+    assert not fresnel_reflectance(float("nan"), 1.0, ratio) >= 0
