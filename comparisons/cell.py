@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.feasible_set import UNUSED
 from comparisons.images import write_image
 from comparisons.judgement import UNJUDGED, judge_first_hits, judge_image, largest_error, verdict_of, worst_pixel
+from comparisons.lobes import find_lobes
 from comparisons.radiance_bound import radiance_bound
 from comparisons.renderer import RendererError
 from comparisons.results import Cell, Images, Judgement, StochasticTest, Verdict
@@ -153,7 +155,10 @@ def _judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
     low = np.where(unjudged[..., np.newaxis], 0.0, np.clip(low, 0.0, most))
     high = np.where(unjudged[..., np.newaxis], most, np.clip(high, 0.0, most))
     assert rendering.batch_means is not None, "only noisy renderings are judged here"
-    outcome = compare_means(low, high, rendering.batch_means, rendering.samples, most)
+    lobes = find_lobes(evidence.scene)
+    first_hit_is_certain = (evidence.feasible.hit_primitives != UNUSED).sum(axis=2) == 1
+    is_random = ~(lobes.sees_directly() & first_hit_is_certain)
+    outcome = compare_means(low, high, rendering.batch_means, rendering.samples, most, lobes, is_random)
     p_values = outcome.p_values.min(axis=2)
     # Exponents of these probabilities grow with the square of the distance, so that this is a distance, too.
     with np.errstate(divide="ignore"):

@@ -10,6 +10,7 @@ import pytest
 from comparisons.cell import CELL_FILE, CellPlace, Evidence, run_cell
 from comparisons.feasible_set import feasible_set
 from comparisons.images import read_image
+from comparisons.lobes import find_lobes
 from comparisons.renderer import FirstHits, Rays, RendererError, Rendering
 from comparisons.results import Cell, Verdict
 from reference_tracer.arithmetic import FLOAT
@@ -162,7 +163,8 @@ def noisy(offset: float, kind: str) -> Callable[[Scene, Path], Rendering]:
 
     def answer(_scene: Scene, _folder: Path) -> Rendering:
         mean = evidence(kind).truth * (1 + offset)
-        batches = np.stack([mean * factor for factor in (0.99, 1.01) * 8]).astype(np.float32)
+        noise = np.where(find_lobes(evidence(kind).scene).sees_directly(), 0.0, 0.01)[..., np.newaxis]
+        batches = np.stack([mean * (1 + sign * noise) for sign in (-1, 1) * 8]).astype(np.float32)
         return Rendering(mean.astype(np.float32), 1.0, samples=16 * 10_000, batch_means=batches)
 
     return answer
