@@ -3,8 +3,55 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 from comparisons.output_model import OutputModel
+
+
+@dataclass(frozen=True)
+class RayOffset:
+    """Where secondary and shadow rays start that leave a surface at p: at p + v·(absolute + relative·max|p|).
+
+    v is the unit normal on the side that the ray goes to, or the ray's own unit direction. max|p| is the largest
+    absolute coordinate. Raises ValueError for a combination that no renderer can have.
+    """
+
+    absolute: float = 0.0
+    """In units of the scene."""
+    relative: float = 0.0
+    along: Literal["normal", "direction"] = "normal"
+    minimum_distance: float = 0.0
+    """Hits nearer than this to where a ray starts are ignored, a camera's ray included; in units of the scene."""
+    excludes_surface: bool = True
+    """Whether a ray cannot meet again the point that it leaves: by the identity of the primitive, or since the offset
+    is far above all rounding. If not, the primitive is tested as all others are: of a sphere both roots."""
+
+    def __post_init__(self) -> None:
+        if min(self.absolute, self.relative, self.minimum_distance) < 0.0:
+            raise ValueError("a ray offset is not negative")
+        if self.excludes_surface and (self.minimum_distance > 0.0 or self.along == "direction"):
+            raise ValueError("with a least distance, or an offset along the ray, a surface is tested as all others are")
+
+    @property
+    def moves_rays(self) -> bool:
+        """Whether rays start beside the surface."""
+        return self.absolute > 0.0 or self.relative > 0.0
+
+    def in_words(self) -> str:
+        """One clause."""
+        start = f"{self._length()} along the {self._vector()}" if self.moves_rays else "on the surface"
+        nearest = f", hits nearer than {self.minimum_distance:.3g} are ignored" if self.minimum_distance > 0.0 else ""
+        left = "cannot be hit again there" if self.excludes_surface else "is tested as all others are"
+        return f"{start}{nearest}; the surface {left}"
+
+    def _length(self) -> str:
+        if self.absolute == self.relative:
+            return f"{self.absolute:.3g}·(1 + max|p|)"
+        terms = [f"{self.absolute:.3g}"] if self.absolute > 0.0 else []
+        return " + ".join([*terms, *([f"{self.relative:.3g}·max|p|"] if self.relative > 0.0 else [])])
+
+    def _vector(self) -> str:
+        return "normal" if self.along == "normal" else "ray"
 
 
 @dataclass(frozen=True)
@@ -13,9 +60,22 @@ class ErrorModel:
 
     description: str
     precision_bits: int
-    """Significand bits of its arithmetic, less the bits that another order of operations may cost."""
-    ray_offset: float = 0.0
-    """Secondary rays start at p + n·offset·(1 + max|p|); 0: they start on the surface."""
+    """The relative error of one operation is at most 2^-precision_bits, slack for another order of them included."""
+    ray_offset: RayOffset = field(default_factory=RayOffset)
     shadow_shortening: float = 0.0
     """Shadow rays end at this fraction of the light's distance before the light."""
     output: OutputModel = field(default_factory=OutputModel)
+    random_choices: str = ""
+    """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""
+
+    def in_words(self) -> dict[str, str]:
+        """Each field as a clause, by what it is about."""
+        shortened = f"{self.shadow_shortening:.3g} of the distance before the light"
+        return {
+            "summary": self.description,
+            "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
+            "rays that leave a surface start": self.ray_offset.in_words(),
+            "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",
+            "output": self.output.in_words(),
+            "random numbers": self.random_choices or "none",
+        }

@@ -92,6 +92,8 @@ class OutputModel:
                 written = np.where(np.abs(written.astype(np.float64)) > np.abs(farthest), toward_zero, written)
             neighbour = np.nextafter(written, written.dtype.type(side * np.inf)).astype(np.float64)
         value = written.astype(np.float64)
+        if self.numbers == "float64":
+            return value  # nothing lies between two neighbours
         has_neighbour = np.isfinite(value) & np.isfinite(neighbour)
         halfway = 0.5 * np.where(has_neighbour, value, 0.0) + 0.5 * np.where(has_neighbour, neighbour, 0.0)
         return np.where(has_neighbour, halfway, value)

@@ -1,66 +1,137 @@
-"""How a renderer with ray offsets leaves a surface, in place of the ideal way: overrides for ball arithmetic.
+"""How a renderer with ray offsets leaves a surface, in place of the ideal way.
 
-The ideal tracer starts on the surface and excludes the surface itself. A renderer that starts beside the surface does
-so to the same end, so the surface stays excluded; what changes is where the ray starts, and how far the other side of
-a sphere is from there.
+The ideal tracer starts on the surface and excludes the surface itself. Most renderers start beside it, or ignore what
+is hit very near. Where that is done far above all rounding, the surface stays excluded; what changes is where the ray
+starts, and how far the other side of a sphere is from there. Elsewhere the surface is tested as all others are, so
+that rounding may let a ray meet the very point that it leaves, as it may in such a renderer.
+
+The functions here are overrides: source of the tracer, in place of its own functions. So they run in every number type.
+The constants are given by the kernel's arithmetic (`offset_constants`).
 """
 
 from __future__ import annotations
 
-import math
+from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
-from reference_tracer.balls import comparison_functions
+from reference_tracer.balls import stored_number
+from reference_tracer.scene_data import (
+    SPHERE_CENTER,
+    SPHERE_RADIUS,
+    TRIANGLE_A,
+    TRIANGLE_B,
+    TRIANGLE_C,
+    number_of,
+    vector_of,
+)
+from reference_tracer.sphere import sphere_distance
+from reference_tracer.triangle import triangle_distance
+from reference_tracer.vector import along, dot, subtract
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from comparisons.error_model import ErrorModel
-    from reference_tracer.balls import Decisions
+    from reference_tracer.numbers import Scalar, Vector
+    from reference_tracer.scene_data import SceneData
 
-Point = tuple[Any, Any, Any]
+absolute_offset: Scalar = 0.0
+relative_offset: Scalar = 0.0
+"""Times max|p|."""
+about_one: Scalar = 1.0
+"""Between 1 - ε and 1 + ε, where ε is the relative offset."""
+minimum_distance: Scalar = 0.0
+shadow_shortening: Scalar = 0.0
+"""The fraction of the light's distance that a shadow ray ends before the light."""
 
 
-def offset_overrides(error_model: ErrorModel, decisions: Decisions) -> dict[str, Callable[..., Any]]:
+def offset_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
     """The functions of the tracer's source that this renderer's offsets change."""
+    offset = error_model.ray_offset
     overrides: dict[str, Callable[..., Any]] = {}
-    if error_model.ray_offset > 0.0:
-        overrides.update(_departures(error_model.ray_offset, decisions))
+    if offset.moves_rays:
+        overrides["departure"] = departure_along_normal if offset.along == "normal" else departure_along_ray
+    if not offset.excludes_surface:
+        overrides["distance_to_sphere"] = distance_to_any_sphere
+        overrides["distance_to_triangle"] = distance_to_any_triangle
+    elif offset.moves_rays:
+        overrides["distance_to_other_side"] = distance_to_other_side_from_offset
     if error_model.shadow_shortening > 0.0:
-        end = arb(1.0 - error_model.shadow_shortening)
-        overrides["shadow_ray_end"] = lambda: end
+        overrides["shadow_ray_end"] = early_shadow_ray_end
     return overrides
 
 
-def _departures(relative_offset: float, decisions: Decisions) -> dict[str, Callable[..., Any]]:
-    is_less = comparison_functions(decisions)["is_less"]
+def offset_constants(error_model: ErrorModel) -> dict[str, Any]:
+    """The constants of the overrides by name, as balls that hold what the renderer stores."""
+    offset, bits = error_model.ray_offset, error_model.precision_bits
+    return {
+        "absolute_offset": stored_number(offset.absolute, bits),
+        "relative_offset": stored_number(offset.relative, bits),
+        "about_one": arb(1, offset.relative),
+        "minimum_distance": stored_number(offset.minimum_distance, bits),
+        "shadow_shortening": stored_number(error_model.shadow_shortening, bits),
+    }
 
-    def offset_at(point: Point) -> Any:
-        largest = abs(point[0]).max(abs(point[1])).max(abs(point[2]))
-        return (largest + 1) * relative_offset
 
-    def departure(primitive: int, point: Point, normal: Point) -> tuple[Point, int]:
-        offset = offset_at(point)
-        x, y, z = (p + n * offset for p, n in zip(point, normal, strict=True))
-        return (x, y, z), primitive
+def departure_along_normal(primitive: int, point: Vector, normal: Vector, direction: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - the signature of the function it stands for
+    """Beside the surface, on the side that the ray goes to."""
+    largest = max(max(abs(point[0]), abs(point[1])), abs(point[2]))  # noqa: PLW3301 - balls have a maximum of two
+    return along(point, normal, absolute_offset + relative_offset * largest), primitive
 
-    def distance_to_other_side(origin: Point, direction: Point, center: Point) -> Any:
-        """From a point that lies an offset δ inside the sphere, |o-c| = r - δ: the positive root of the quadratic.
 
-        Its constant term |o-c|² - r² = -2|o-c|δ - δ² is taken from δ: as a difference it would be lost to rounding.
-        δ is computed at the moved origin, whose coordinates differ from the point's by up to δ, so that what is found
-        there is between 1 - ε and 1 + ε times δ, where ε is the relative offset.
-        """
-        from_center = [o - c for o, c in zip(origin, center, strict=True)]
-        half_linear = sum((d * f for d, f in zip(direction, from_center, strict=True)), arb(0))
-        if not is_less(half_linear, 0):
-            return arb(math.inf)
-        offset = offset_at(origin) / arb(1, relative_offset)
-        squared = sum((d * d for d in direction), arb(0))
-        from_center_length = sum((f * f for f in from_center), arb(0)).sqrt()
-        product = (2 * from_center_length + offset) * offset
-        return ((half_linear * half_linear + squared * product).sqrt() - half_linear) / squared
+def departure_along_ray(primitive: int, point: Vector, normal: Vector, direction: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - as above
+    """A little way along the ray."""
+    largest = max(max(abs(point[0]), abs(point[1])), abs(point[2]))  # noqa: PLW3301 - balls have a maximum of two
+    offset = absolute_offset + relative_offset * largest
+    return along(point, direction, offset / sqrt(dot(direction, direction))), primitive
 
-    return {"departure": departure, "distance_to_other_side": distance_to_other_side}
+
+def distance_to_other_side_from_offset(origin: Vector, direction: Vector, center: Vector) -> Scalar:
+    """From a point that lies an offset δ inside the sphere, |o-c| = r - δ: the positive root of the quadratic.
+
+    Its constant term |o-c|² - r² = -2|o-c|δ - δ² is taken from δ: as a difference it would be lost to rounding.
+    δ is computed at the moved origin, whose coordinates differ from the point's by up to δ, so that what is found
+    there is between 1 - ε and 1 + ε times δ, where ε is the relative offset.
+    """
+    from_center = subtract(origin, center)
+    half_linear = dot(direction, from_center)
+    if half_linear >= 0.0:
+        return inf
+    largest = max(max(abs(origin[0]), abs(origin[1])), abs(origin[2]))  # noqa: PLW3301 - balls have a maximum of two
+    offset = (absolute_offset + relative_offset * largest) / about_one
+    direction_squared = dot(direction, direction)
+    product = (2.0 * sqrt(dot(from_center, from_center)) + offset) * offset
+    return (sqrt(half_linear * half_linear + direction_squared * product) - half_linear) / direction_squared
+
+
+def distance_to_any_sphere(scene: SceneData, origin: Vector, direction: Vector, left: int, sphere: int) -> Scalar:  # noqa: ARG001 - as above
+    """To the nearest of both roots that is not too near, also of the sphere that the ray starts on."""
+    skipped = minimum_distance / sqrt(dot(direction, direction))
+    start = along(origin, direction, skipped)
+    center = vector_of(scene, SPHERE_CENTER, sphere)
+    distance = sphere_distance(start, direction, center, number_of(scene, SPHERE_RADIUS, sphere))
+    if distance < inf:
+        return skipped + distance
+    return inf
+
+
+def distance_to_any_triangle(scene: SceneData, origin: Vector, direction: Vector, left: int, triangle: int) -> Scalar:  # noqa: ARG001 - as above
+    """To the triangle if it is not too near, also if the ray starts on it."""
+    skipped = minimum_distance / sqrt(dot(direction, direction))
+    distance = triangle_distance(
+        along(origin, direction, skipped),
+        direction,
+        vector_of(scene, TRIANGLE_A, triangle),
+        vector_of(scene, TRIANGLE_B, triangle),
+        vector_of(scene, TRIANGLE_C, triangle),
+    )
+    if distance < inf:
+        return skipped + distance
+    return inf
+
+
+def early_shadow_ray_end() -> Scalar:
+    """Before the light."""
+    return 1.0 - shadow_shortening

@@ -103,13 +103,14 @@ def reflected_ray(
     primitive: int, point: Vector, normal: Vector, direction: Vector, weight: Vector, medium: int, depth: int
 ) -> Ray:
     """The ray that a surface sends on by reflecting one of the given direction; `depth` is that of the arriving ray."""
-    start, left = departure(primitive, point, normal)
-    return start, mirror_direction(direction, normal), weight, left, medium, depth - 1
+    mirrored = mirror_direction(direction, normal)
+    start, left = departure(primitive, point, normal, mirrored)
+    return start, mirrored, weight, left, medium, depth - 1
 
 
 def transmitted_ray(
     primitive: int, point: Vector, normal: Vector, refracted: Vector, weight: Vector, medium: int, depth: int
 ) -> Ray:
     """The ray that goes on behind a surface in the refracted direction, into `medium`."""
-    start, left = departure(primitive, point, negate(normal))
+    start, left = departure(primitive, point, negate(normal), refracted)
     return start, refracted, weight, left, medium, depth - 1

@@ -13,8 +13,10 @@ if TYPE_CHECKING:
     from reference_tracer.scene_data import SceneData
 
 
-def departure(primitive: int, point: Vector, normal: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - a ray offset needs it
+def departure(primitive: int, point: Vector, normal: Vector, direction: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - a ray offset needs them
     """Where a ray starts that leaves a surface to the side of `normal`, and the primitive that it has left.
+
+    `direction` is the ray's, of any length.
 
     Ideal geometry: on the surface itself. A renderer with a ray offset starts beside it, as its error model says.
     """
@@ -30,7 +32,7 @@ def is_shadowed(
     scene: SceneData, primitive: int, point: Vector, normal: Vector, to_light: Vector, light_is_near: bool
 ) -> bool:
     """Whether anything stands between the point and the light; nothing behind a near light can."""
-    origin, left = departure(primitive, point, normal)
+    origin, left = departure(primitive, point, normal, to_light)
     if light_is_near:
         # The unnormalised direction reaches the light at t = 1, with no square root and no rounding of the distance.
         return is_occluded(scene, origin, subtract(add(point, to_light), origin), left, shadow_ray_end())

@@ -120,11 +120,12 @@ def one_bounce_too_few(
     primitive: int, point: Vector, normal: Vector, direction: Vector, weight: Vector, medium: int, depth: int
 ) -> Ray:
     """The last reflection is left out."""
-    start, left = departure(primitive, point, normal)
+    mirrored = mirror_direction(direction, normal)
+    start, left = departure(primitive, point, normal, mirrored)
     last = weight
     if depth == 1:
         last = scale(weight, 0.0)
-    return start, mirror_direction(direction, normal), last, left, medium, depth - 1
+    return start, mirrored, last, left, medium, depth - 1
 
 
 def phong_for_blinn(normal: Vector, direction: Vector, toward_light: Vector, exponent: Scalar) -> Scalar:
