@@ -35,8 +35,8 @@ def test_within_8_ulp_of_the_critical_angle_a_wrong_decision_weighs_next_to_noth
             assert (computed < 0) == (exactly < 0)
 
 
-# Best found among 80,000 draws: cosines uniform, near 0 and near 1; indices 1 + 1e-15 to 1.1, and 1.1 to 1000. Errors in
-# units of 2^-53 of R.
+# Best found among 80,000 draws: cosines uniform, near 0 and near 1; indices 1 + 1e-15 to 1.1, and 1.1 to 1000.
+# Beside each its error in units of 2^-53 of R.
 WORST_REFLECTANCES = [
     ("0x1.1cd2afbca88bfp-17", "0x1.0000000000005p+0"),  # 13.3: grazing, nearly equal indices
     ("0x1.fff9b455c0284p-1", "0x1.005531313feedp+0"),  # 12.4: nearly head on
