@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import functools
-import gc
 import hashlib
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from multiprocessing import get_context
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-import comparisons
-import reference_tracer
-import scenes
 from comparisons.cell import CELL_FILE, TRUTH_FILE, CellPlace, Evidence, run_cell
 from comparisons.comparability import depth_or_reason
 from comparisons.feasible_set import feasible_set
@@ -23,11 +17,16 @@ from comparisons.images import write_image
 from comparisons.renderer import Rays
 from comparisons.renderers.catalogue import all_renderers
 from comparisons.results import Cell, Verdict
+from reference_tracer.certified_image import certified_image, collect_garbage_rarely
 from reference_tracer.rendering import primary_rays, render
+from reference_tracer.source_digest import source_digest
 from scenes.library import open_scene
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
 
     from comparisons.error_model import ErrorModel
     from comparisons.feasible_set import FeasibleSet
@@ -85,7 +84,7 @@ def run_plan(plan: Plan, directory: Path, jobs: int) -> Iterator[Cell]:
     When the caller stops early, what runs is finished and the rest is dropped.
     """
     # Fresh interpreters: threads of a forked one may hold locks for ever.
-    with ProcessPoolExecutor(jobs, get_context("spawn"), _collect_garbage_rarely) as pool:
+    with ProcessPoolExecutor(jobs, get_context("spawn"), collect_garbage_rarely) as pool:
         # The scenes with the most cells first, so that no long one is left for the end.
         order = sorted(plan.by_scene, key=lambda source: -len(plan.by_scene[source]))
         waiting = {pool.submit(run_scene, source, plan.by_scene[source], directory): source for source in order}
@@ -102,15 +101,10 @@ def run_plan(plan: Plan, directory: Path, jobs: int) -> Iterator[Cell]:
             pool.shutdown(cancel_futures=True)
 
 
-def _collect_garbage_rarely() -> None:
-    """Balls come and go by the million and hold no cycles; looking for some every 700 takes a tenth of the time."""
-    gc.set_threshold(100_000)
-
-
 def run_scene(source: str, planned: Sequence[PlannedCell], directory: Path) -> list[Cell]:
     """Truth once, the feasible set once for each error model, then every cell of one scene."""
     scene = open_scene(source)
-    truth = np.asarray(render(scene), dtype=np.float64)
+    truth = _truth(scene)
     rays = Rays(*primary_rays(scene))
     folder = directory / "cells" / scene.name
     folder.mkdir(parents=True, exist_ok=True)
@@ -125,6 +119,19 @@ def run_scene(source: str, planned: Sequence[PlannedCell], directory: Path) -> l
         evidence = Evidence(scene, truth, rays, feasible[model])
         cells.append(run_cell(cell.place, renderer, cell.depth, evidence, directory))
     return cells
+
+
+def _truth(scene: Scene) -> NDArray[np.float64]:
+    """The certified image; where that is undecided, the outcome next to the float64 image's value, if any is known."""
+    image = certified_image(scene)
+    truth = image.middle.copy()
+    if image.undecided:
+        rounded = np.asarray(render(scene), dtype=np.float64)
+        for (column, line), reason in image.undecided.items():
+            value = rounded[line, column]
+            outcomes = [outcome.middle for outcome in reason.outcomes] or [value]
+            truth[line, column] = min(outcomes, key=lambda outcome: float(np.abs(value - outcome).max()))
+    return truth
 
 
 def _planned(
@@ -163,15 +170,6 @@ def _finished(directory: Path, planned: PlannedCell) -> Cell | None:
 
 
 def _key(scene: Scene, renderer: Renderer, integrator: Integrator, version: str | None) -> str:
-    parts = (scene.model_dump_json(), renderer.name, integrator.name, str(version), _source_digest())
+    code = source_digest("scenes", "reference_tracer", "comparisons")
+    parts = (scene.model_dump_json(), renderer.name, integrator.name, str(version), code)
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
-
-
-@functools.cache
-def _source_digest() -> str:
-    """Of all code that a verdict may depend on."""
-    digest = hashlib.sha256()
-    for package in (scenes, reference_tracer, comparisons):
-        for path in sorted(Path(package.__path__[0]).rglob("*.py")):
-            digest.update(path.read_bytes())
-    return digest.hexdigest()

@@ -42,7 +42,7 @@ def truth(
 
     Writes SCENE.exr, with the channels R, G, B (the values), residual.* (what float32 loses of them), radius.* (how far
     the true value can be from the sum of the two) and precision_bits; and SCENE.json, with the undecided pixels: their
-    rays, all that they may be, and why.
+    rays (in hexadecimal, which loses nothing), all values that they may have, and why.
 
     Parameters
     ----------
@@ -106,7 +106,15 @@ def _certify(scene: Scene, out: Path, jobs: int, *, fresh: bool) -> dict[str, An
         write_certified_image(out / f"{scene.name}.exr", image)
     except ImageError as error:
         raise UsageError(f"{error}.") from error
-    undecided = [{"pixel": pixel, **asdict(reason)} for pixel, reason in sorted(image.undecided.items())]
+    undecided = [
+        {
+            "pixel": pixel,
+            **asdict(reason),
+            "origin": [part.hex() for part in reason.origin],
+            "direction": [part.hex() for part in reason.direction],
+        }
+        for pixel, reason in sorted(image.undecided.items())
+    ]
     text = json.dumps({**summary, "undecided_pixels": undecided}, indent=1, allow_nan=False)
     with TemporaryDirectory(prefix=".", dir=out) as folder:  # beside the file, so that a rename can move it
         whole = Path(folder) / "undecided.json"

@@ -100,7 +100,8 @@ def certified_image(
 
 def largest_value(images: Iterable[CertifiedImage]) -> float:
     """A value that some decided pixel is proven to reach; 0 if there is none."""
-    return max(float(np.max((image.middle - image.radius)[image.decided], initial=0.0)) for image in images)
+    proven = ((image.middle[image.decided], image.radius[image.decided]) for image in images)
+    return max(float(np.max(middle - radius, initial=0.0)) for middle, radius in proven)
 
 
 def collect_garbage_rarely() -> None:
@@ -209,7 +210,7 @@ def _write(band: _Band, image: CertifiedImage) -> None:
 def _read(band: _Band) -> CertifiedImage | None:
     """The band as it was kept; None if it was not, or if its file is damaged."""
     try:
-        with np.load(band.file) as arrays:
+        with band.file.open("rb") as file, np.load(file) as arrays:
             undecided = {
                 (column, row): _undecided(reason) for column, row, reason in json.loads(str(arrays["undecided"]))
             }

@@ -1,0 +1,183 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+from reference_tracer import certified_image as module
+from reference_tracer.certification import FEWEST_BITS, TWO_ROUNDINGS, Certifier, Enclosure
+from reference_tracer.certified_image import certified_image, largest_value
+from scenes.library import library_names
+from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene, sphere
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from reference_tracer.certification import CertifiedPixel
+    from scenes.scene import Scene
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty cache, and bands of two rows of the scene below."""
+    monkeypatch.setenv("RAYTRUTH_CACHE", str(tmp_path))
+    monkeypatch.setattr(module, "PIXELS_IN_A_BAND", 2 * WIDTH)
+    return tmp_path / "truth"
+
+
+@pytest.fixture
+def evaluated(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, int]]:
+    """The pixels that are evaluated from here on."""
+    pixels: list[tuple[int, int]] = []
+    original = Certifier.pixel
+
+    def recorded(self: Certifier, column: int, line: int, *widest: float) -> CertifiedPixel:
+        pixels.append((column, line))
+        return original(self, column, line, *widest)
+
+    monkeypatch.setattr(Certifier, "pixel", recorded)
+    return pixels
+
+
+WIDTH, HEIGHT = 6, 5
+
+
+def scene() -> Scene:
+    return library_scene("single-sphere", WIDTH, HEIGHT)
+
+
+def touching_scene() -> Scene:
+    """Its second row's middle pixel touches a sphere exactly."""
+    return small_scene(
+        projection="perspective",
+        extent=60.0,
+        width=3,
+        height=3,
+        camera={"position": (0.0, 1.0, 2.0)},
+        materials={"a": {"emission": {"radiance": (1.0, 0.5, 0.25)}}},
+        objects=[sphere("a", (1.0, 0.0, 0.0))],
+    )
+
+
+@pytest.mark.usefixtures("cache")
+def test_each_pixel_is_in_its_place() -> None:
+    image = certified_image(scene())
+    certifier = Certifier(scene())
+    assert image.middle.shape == image.radius.shape == (HEIGHT, WIDTH, 3)
+    for line, column in np.ndindex(HEIGHT, WIDTH):
+        pixel = certifier.pixel(column, line)
+        assert tuple(image.middle[line, column]) == pixel.middle
+        assert tuple(image.radius[line, column]) == pixel.radius
+        assert image.precision_bits[line, column] == FEWEST_BITS
+    assert image.decided.all()
+
+
+@pytest.mark.usefixtures("cache")
+def test_processes_side_by_side_give_the_same_image() -> None:
+    told: list[tuple[int, int]] = []
+    alone = certified_image(scene())
+    together = certified_image(scene(), jobs=2, fresh=True, progress=lambda *done: told.append(done))
+    assert_same(alone, together)
+    assert told == [(1, 3), (2, 3), (3, 3)]
+
+
+def assert_same(one: module.CertifiedImage, other: module.CertifiedImage) -> None:
+    np.testing.assert_array_equal(one.middle, other.middle)
+    np.testing.assert_array_equal(one.radius, other.radius)
+    np.testing.assert_array_equal(one.precision_bits, other.precision_bits)
+    assert one.undecided == other.undecided
+
+
+def test_an_image_is_kept_and_what_is_missing_or_damaged_is_made_again(
+    cache: Path, evaluated: list[tuple[int, int]]
+) -> None:
+    first = certified_image(scene())
+    assert len(evaluated) == WIDTH * HEIGHT
+    assert_same(certified_image(scene()), first)
+    assert len(evaluated) == WIDTH * HEIGHT
+    one, two, three = sorted(cache.rglob("*.npz"))
+    one.unlink()
+    two.write_bytes(two.read_bytes()[:200])
+    three.touch()
+    evaluated.clear()
+    assert_same(certified_image(scene()), first)
+    assert sorted({line for _, line in evaluated}) == [0, 1, 2, 3]
+    assert sorted(path.suffix for path in one.parent.iterdir()) == [".npz"] * 3
+    evaluated.clear()
+    certified_image(scene(), fresh=True)
+    assert len(evaluated) == WIDTH * HEIGHT
+
+
+def test_an_image_that_was_interrupted_goes_on_where_it_stopped(cache: Path, evaluated: list[tuple[int, int]]) -> None:
+    def interrupt(_done: int, _total: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        certified_image(scene(), progress=interrupt)
+    assert len(list(cache.rglob("*.npz"))) == 1
+    evaluated.clear()
+    certified_image(scene())
+    assert sorted({line for _, line in evaluated}) == [2, 3, 4]
+
+
+@pytest.mark.usefixtures("cache")
+def test_another_scene_or_size_or_code_of_ours_makes_another_image(
+    evaluated: list[tuple[int, int]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    certified_image(scene())
+    certified_image(library_scene("single-sphere", WIDTH, HEIGHT - 1))
+    certified_image(library_scene("ambient-sphere", WIDTH, HEIGHT))
+    monkeypatch.setattr(module, "source_digest", lambda *_: "another")
+    certified_image(scene())
+    assert len(evaluated) == WIDTH * (4 * HEIGHT - 1)
+
+
+@pytest.mark.usefixtures("cache")
+def test_undecided_pixels_are_kept_with_their_reason() -> None:
+    made = certified_image(touching_scene())
+    assert list(made.undecided) == [(1, 1)]
+    reason = made.undecided[1, 1]
+    assert "touches a sphere exactly" in reason.explanation
+    assert {outcome.middle for outcome in reason.outcomes} == {(1.0, 0.5, 0.25), (0.0, 0.0, 0.0)}
+    assert not made.decided[1, 1]
+    assert made.decided.sum() == 8
+    assert_same(certified_image(touching_scene()), made)
+
+
+@pytest.mark.usefixtures("cache")
+def test_what_is_wide_against_the_largest_value_gets_more_bits(evaluated: list[tuple[int, int]]) -> None:
+    # So small and far that 128 bits leave the point on it, and so its normal, uncertain.
+    tiny = small_scene(
+        projection="perspective",
+        extent=30.0,
+        camera={"position": (0.0, 2.0**36, 2.0**37)},
+        objects=[sphere("white", radius=2.0**-70)],
+        lights=[lamp((0.0, 4.0, 4.0))],
+    )
+    image = certified_image(tiny)
+    assert image.precision_bits.tolist() == [[2 * FEWEST_BITS]]
+    assert image.radius.max() <= TWO_ROUNDINGS * largest_value([image])
+    assert len(evaluated) == 2
+    certified_image(tiny)
+    assert len(evaluated) == 2
+
+
+def test_the_largest_value_is_one_that_is_reached_for_certain() -> None:
+    image = certified_image(scene())
+    image.radius[...] = 0.25
+    assert largest_value([image]) == image.middle.max() - 0.25
+
+
+@pytest.mark.parametrize("name", library_names())
+def test_no_pixel_of_a_library_scene_needs_more_than_it_gets(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("RAYTRUTH_CACHE", str(tmp_path))
+    image = certified_image(library_scene(name, 12, 9))
+    assert image.undecided == {}
+    assert image.radius.max() <= TWO_ROUNDINGS * largest_value([image])
+
+
+def test_enclosures_are_equal_by_value() -> None:
+    assert Enclosure((1.0, 0.0, 0.0), (0.0,) * 3) == Enclosure((1.0, 0.0, 0.0), (0.0,) * 3)
