@@ -9,7 +9,7 @@ Stability of Numerical Algorithms, 2nd ed., lemma 3.1 and eq. 3.5).
 from __future__ import annotations
 
 from fractions import Fraction
-from math import isqrt
+from math import isqrt, log2
 from typing import TypeAlias
 
 UNIT_ROUNDOFF = Fraction(1, 2**53)
@@ -56,13 +56,6 @@ def at(origin: Exact, direction: Exact, distance: Fraction) -> Exact:
     return plus(origin, times(direction, distance))
 
 
-def permanent(a: Exact, b: Exact, c: Exact) -> Fraction:
-    """Σ|a_i|·(|b_j·c_k| + |b_k·c_j|), to which the rounding of a·(b×c) is proportional."""
-    sizes = [tuple(map(abs, vector)) for vector in (a, b, c)]
-    (a0, a1, a2), (b0, b1, b2), (c0, c1, c2) = sizes
-    return a0 * (b1 * c2 + b2 * c1) + a1 * (b2 * c0 + b0 * c2) + a2 * (b0 * c1 + b1 * c0)
-
-
 def root_above(x: Fraction) -> Fraction:
     """A rational number above the root of x, too large by less than 2^-100 of it for x that is 2^-900 or more."""
     scale = 1 << 1100
@@ -72,3 +65,8 @@ def root_above(x: Fraction) -> Fraction:
 def length(a: Exact) -> Fraction:
     """An upper bound of |a|, tight as in root_above."""
     return root_above(dot(a, a))
+
+
+def bits(error: Fraction, size: Fraction) -> float:
+    """How many of 53 bits an error takes from a number of this size; 0 for an error of a unit roundoff or less."""
+    return log2(max(Fraction(1), error / (size * UNIT_ROUNDOFF))) if size else 0.0

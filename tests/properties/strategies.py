@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import permutations, product
-from math import sqrt
+from math import cos, sin, sqrt, tau, ulp
 from typing import Any, NamedTuple
 
 from hypothesis import strategies as st
@@ -126,8 +126,29 @@ def tidy_rays_near_spheres(draw: st.DrawFn) -> tuple[Ray, Sphere]:
     )
 
 
+# Radii up to a planet's in metres; the smallest ones are a hundredth of a millimetre.
+RADII = st.sampled_from([1.0, 1e7, 1e5, 1e-5, 6.371e6])
+# How high above the surface, in units of length, or in ulps of the coordinates.
+HEIGHTS = st.sampled_from([1.0, 1e-3, -1e-3, 30.0, 0.0])
+ULPS = st.integers(-8, 8)
+
+
+@st.composite
+def rays_close_to_spheres(draw: st.DrawFn) -> tuple[Ray, Sphere]:
+    """From just above, on, or just under a sphere, huge ones too: downwards, tangent, and upwards."""
+    radius = draw(RADII)
+    center = draw(st.one_of(st.just((0.0, 0.0, 0.0)), vectors(1.0), vectors(radius)))
+    up = draw(directions())
+    x, y, z = combined(center, up, radius + draw(HEIGHTS) * min(1.0, radius))
+    shift = draw(ULPS)
+    origin = (x + shift * ulp(x), y, z)
+    side = draw(perpendiculars(up))
+    direction = combined(side, up, draw(st.sampled_from([0.0, -1e3, -1.0, -1e-2, -1e-4, 1e-4, 1.0])))
+    return Ray(origin, direction), Sphere(center, radius)
+
+
 def rays_near_spheres() -> st.SearchStrategy[tuple[Ray, Sphere]]:
-    return st.one_of(untidy_rays_near_spheres(), untidy_rays_near_spheres(), tidy_rays_near_spheres())
+    return st.one_of(untidy_rays_near_spheres(), rays_close_to_spheres(), tidy_rays_near_spheres())
 
 
 SIDES = st.one_of(st.sampled_from([1.0, 1e-3, 30.0, 0.0]), st.floats(1e-3, 3.0))
@@ -176,6 +197,37 @@ def rays_near_triangles(
     toward = combined((0.0, 0.0, 0.0), draw(directions()), draw(st.sampled_from([1.0, 0.125, 7.3])) * size)
     starts = st.sampled_from([1.0, 0.5, 20.0] if positions is INSIDE else [1.0, 0.5, 20.0, -1.0])
     return Ray(combined(target, toward, -draw(starts)), toward), (a, b, c)
+
+
+Fan = tuple[Vector, ...]
+"""The hub, then the rim, which ends where it begins."""
+
+
+@st.composite
+def rays_at_fans(draw: st.DrawFn) -> tuple[Ray, Fan]:
+    """At the hub, at a spoke, or between spokes of a fan of triangles that surrounds the point.
+
+    Seen along the ray the rim runs around that point at a distance, so that the ray meets one of the triangles.
+    """
+    scale = draw(SCALES)
+    hub = draw(vectors(scale))
+    axis = draw(directions())
+    first = draw(perpendiculars(axis))
+    second = float_cross(axis, first)
+    corners = draw(st.integers(3, 8))
+    rim = [
+        combined(combined(hub, first, scale * cos(tau * i / corners)), second, scale * sin(tau * i / corners))
+        for i in range(corners)
+    ]
+    # At a third of the spoke: no nearer to the rim of a triangle than a sixth of it.
+    part = draw(st.sampled_from([0.0, 1 / 3, 0.1, 1e-3, 1e-9]))
+    spoke = combined(rim[0], hub, -1.0)
+    beside = draw(st.sampled_from([0.0, 2.0**-52, -(2.0**-52), 2.0**-23, -(2.0**-23), 1e-9]))
+    target = combined(combined(hub, spoke, part), second, beside * scale)
+    tilt = draw(st.sampled_from([0.0, 1.0, -3.0]))
+    toward = combined(combined((0.0, 0.0, 0.0), axis, draw(SIGNS)), first, tilt)
+    away = scale * draw(st.sampled_from([1.0, 0.37, 20.0]))
+    return Ray(combined(target, toward, -away), toward), (hub, *rim, rim[0])
 
 
 # Where between the faces of a box.

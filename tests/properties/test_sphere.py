@@ -3,12 +3,12 @@ from __future__ import annotations
 from fractions import Fraction
 from math import inf
 
-from hypothesis import assume, given
+from hypothesis import assume, given, target
 from hypothesis import strategies as st
 
 from reference_tracer.sphere import distance_to_other_side, sphere_distance, sphere_normal
 from reference_tracer.vector import along
-from tests.properties.exact import dot, exact, gamma, length, minus, plus, times
+from tests.properties.exact import dot, exact, gamma, length, minus, plus, root_above, times
 from tests.properties.strategies import (
     AXIS_MAPS,
     SMALL_FRACTIONS,
@@ -34,6 +34,7 @@ class Meeting:
         self.constant = dot(to_origin, to_origin) - radius**2
         self.gap = self.half_linear**2 / self.squared - self.constant
         self.size = length(to_origin) + radius
+        self.radius = radius
 
     def residual(self, distance: float) -> Fraction:
         """f(t)."""
@@ -46,21 +47,43 @@ class Meeting:
 
         The vector o-c is off by u·|o-c|, its foot towards the centre by γ(14)·|o-c|: the dot product γ(4), the quotient
         γ(5) more, then one product and one sum a component, on top of o-c itself. So gap is off by 2·14 + 5 units of
-        S², a root computed from it has a residual of as much. Where the near root is constant/larger, the constant
-        is off by 5 units, which the factor 2·√gap/larger <= 1 does not increase. The last operations, and q, shift t by
+        S², and so is the residual of a root computed from it. Where the root is constant/larger, the constant is off by
+        5 units, which the factor 2·√gap/larger <= 1 does not increase. The last operations, and q, shift t by
         γ(12)·(|t| + |o-c|/|d|), which makes 2·12·r·(2·|o-c| + r) <= 24·S² more. Sum: 62; 80 has room for all squares.
-        Where the quotient would lie behind the foot, the foot is taken: its residual is -gap, within 33.
-        From inside, t solves the quadratic with a constant off by 5 units and a linear term off by 2·γ(4)·|d|·|o-c|·t
-        <= 16 units, and is itself off by γ(12)·t: 5 + 16 + 24.
         """
         return gamma(80) * self.size**2
+
+    def residual_doubt(self, distance: float) -> Fraction:
+        """What rounding can do to f at the hit.
+
+        Close to the sphere the constant is off by γ(2) of itself and γ(10)²·S², and q by γ(9)·|o-c|/|d|. A root t of
+        t² - 2qt + k shifts so that its residual is d²·(2·t·(shift of q) + (shift of k)), 18 units of t·|d|·S and 7 of
+        the constant; its own roundings, γ(4)·(t + |q|) and less than half of it in the root, are 12 units of either.
+        """
+        if self.constant > self.radius**2 / 2:
+            return self.doubt
+        arm = root_above(self.squared) * Fraction(distance) * self.size
+        return gamma(40) * (arm + abs(self.constant)) + gamma(10) ** 2 * self.size**2
+
+    @property
+    def gap_doubt(self) -> Fraction:
+        """What rounding can do to gap; as above, 2·9 units of |q|·|d|·|o-c| close to the sphere."""
+        if self.constant > self.radius**2 / 2:
+            return self.doubt
+        arm = abs(self.half_linear) / root_above(self.squared) * self.size
+        return gamma(40) * (arm + abs(self.constant)) + gamma(10) ** 2 * self.size**2
+
+    @property
+    def constant_doubt(self) -> Fraction:
+        """What rounding can do to the constant's sign: less than to the constant."""
+        return gamma(10) ** 2 * self.size**2
 
     def must_hit(self) -> bool:
         return self.gap >= 0 and (self.constant < 0 or self.half_linear < 0)
 
     def is_certain(self) -> bool:
         """Neither tangent nor on the surface within rounding."""
-        return abs(self.gap) > self.doubt and abs(self.constant) > self.doubt
+        return abs(self.gap) > self.gap_doubt and abs(self.constant) > self.constant_doubt
 
 
 def distance_of(ray: Ray, sphere: Sphere) -> float:
@@ -81,7 +104,9 @@ def test_hit_points_lie_ahead_on_the_surface(case: tuple[Ray, Sphere]) -> None:
     distance = distance_of(*case)
     assume(distance < inf)
     assert distance > 0
-    assert abs(meeting.residual(distance)) <= meeting.doubt
+    doubt = meeting.residual_doubt(distance)
+    target(float(abs(meeting.residual(distance)) / doubt))
+    assert abs(meeting.residual(distance)) <= doubt
 
 
 @given(rays_near_spheres())

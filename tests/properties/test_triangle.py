@@ -1,65 +1,91 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import inf
+from itertools import pairwise
+from math import inf, nan
+from typing import TYPE_CHECKING, Any
 
-from hypothesis import assume, given
+import numpy as np
+import pytest
+from hypothesis import assume, given, target
 from hypothesis import strategies as st
 
 from reference_tracer.triangle import triangle_distance, triangle_normal
-from tests.properties.exact import Exact, cross, dot, exact, gamma, minus, permanent, plus, size_of_dot, times
+from tests.properties.exact import Exact, bits, cross, dot, exact, gamma, minus, plus, size_of_dot, times
 from tests.properties.strategies import (
     AXIS_MAPS,
     INSIDE,
     SMALL_FRACTIONS,
     Corners,
+    Fan,
     Ray,
     mapped,
+    rays_at_fans,
     rays_near_triangles,
     triangles,
 )
-from tests.reference_tracer.kernels import exact_kernel
+from tests.reference_tracer.kernels import exact_kernel, numpy_kernel
 from tests.reproduction import note_case
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from tests.properties.strategies import Vector
 
 RATIONAL_VECTORS = st.tuples(SMALL_FRACTIONS, SMALL_FRACTIONS, SMALL_FRACTIONS)
 
 
 class Meeting:
-    """Where a ray meets the plane of a triangle, exactly: t, u and v times the determinant, which is turned positive.
+    """The triangle as seen along the ray, in exact arithmetic, with bounds on what rounding does to each number.
 
-    Each is a·(b×c) of vectors that are given or differences of given ones; as many as three are differences, and with a
-    product, a difference, a product and two sums there are up to eight roundings: γ(8) of the permanent, which is the
-    same product without signs.
+    The areas u, v, w that the ray makes with the edges are turned positive together; t is t times their sum.
     """
 
     def __init__(self, ray: Ray, corners: Corners) -> None:
-        a, b, c = map(exact, corners)
-        direction = exact(ray.direction)
-        first, second, arm = minus(b, a), minus(c, a), minus(exact(ray.origin), a)
-        determinant = -dot(direction, cross(first, second))
-        sign = -1 if determinant < 0 else 1
-        self.determinant = sign * determinant
-        self.u = sign * dot(second, cross(arm, direction))
-        self.v = -sign * dot(first, cross(arm, direction))
-        self.t = sign * dot(arm, cross(first, second))
-        self.determinant_doubt = gamma(8) * permanent(direction, first, second)
-        self.u_doubt = gamma(8) * permanent(second, arm, direction)
-        self.v_doubt = gamma(8) * permanent(first, arm, direction)
-        self.t_doubt = gamma(8) * permanent(arm, first, second)
+        direction, origin = exact(ray.direction), exact(ray.origin)
+        last = max(range(3), key=lambda axis: (abs(direction[axis]), axis))
+        axes = ((last + 1) % 3, (last + 2) % 3)
+        places, doubts, depths = [], [], []
+        for corner in corners:
+            arm = minus(exact(corner), origin)
+            moved = [direction[axis] / direction[last] * arm[last] for axis in axes]
+            places.append([arm[axis] - part for axis, part in zip(axes, moved, strict=True)])
+            # Roundings: the arm and the difference; and on the other side the slope and the product, too.
+            doubts.append([gamma(2) * abs(arm[i]) + gamma(4) * abs(part) for i, part in zip(axes, moved, strict=True)])
+            depths.append(arm[last])
+        pairs = ((2, 1), (0, 2), (1, 0))
+        areas = [places[i][0] * places[j][1] - places[i][1] * places[j][0] for i, j in pairs]
+        self.doubts = [self.area_doubt(places, doubts, i, j) for i, j in pairs]
+        sign = -1 if sum(areas) < 0 else 1
+        self.u, self.v, self.w = (sign * area for area in areas)
+        self.u_doubt = self.doubts[0]
+        self.determinant = self.u + self.v + self.w
+        self.t = sign * sum(area * depth for area, depth in zip(areas, depths, strict=True)) / direction[last]
+        sizes = [abs(area) + doubt for area, doubt in zip(areas, self.doubts, strict=True)]
+        self.determinant_doubt = sum(self.doubts) + gamma(2) * sum(sizes)
+        # A depth and its product are rounded, the sum twice, the last quotient once.
+        self.t_doubt = sum(
+            (doubt + gamma(5) * size) * abs(depth)
+            for doubt, size, depth in zip(self.doubts, sizes, depths, strict=True)
+        ) / abs(direction[last])
+
+    @staticmethod
+    def area_doubt(places: list[list[Fraction]], doubts: list[list[Fraction]], i: int, j: int) -> Fraction:
+        """Of x·y' - y·x': what the doubts of its factors do to it, and two roundings of each product."""
+        doubt = Fraction(0)
+        for first, second in ((0, 1), (1, 0)):
+            largest = (abs(places[i][first]) + doubts[i][first]) * (abs(places[j][second]) + doubts[j][second])
+            doubt += largest * (1 + gamma(2)) - abs(places[i][first] * places[j][second])
+        return doubt
 
     def must_hit(self) -> bool:
-        return self.u >= 0 and self.v >= 0 and self.u + self.v <= self.determinant and self.t > 0
+        return min(self.u, self.v, self.w) >= 0 and self.t > 0
 
     def is_certain(self) -> bool:
         """Neither parallel nor through an edge nor starting on the triangle, within rounding."""
-        rest = abs(self.determinant - self.u - self.v)
-        return (
-            self.determinant > self.determinant_doubt
-            and abs(self.u) > self.u_doubt
-            and abs(self.v) > self.v_doubt
-            and abs(self.t) > self.t_doubt
-            and rest > 2 * (self.u_doubt + self.v_doubt + self.determinant_doubt)
-        )
+        numbers = (self.u, self.v, self.w, self.determinant, self.t)
+        doubts = (*self.doubts, self.determinant_doubt, self.t_doubt)
+        return all(abs(number) > doubt for number, doubt in zip(numbers, doubts, strict=True))
 
 
 def distance_of(ray: Ray, corners: Corners) -> float:
@@ -80,10 +106,11 @@ def test_hit_points_lie_ahead_in_the_plane(case: tuple[Ray, Corners]) -> None:
     assume(distance < inf)
     assert distance > 0
     meeting = Meeting(*case)
-    # t = T/D is rounded once: |t·D - T| <= |t|·(doubt of D) + (doubt of T) + u·(|T| + its doubt).
+    # t = T/D is rounded twice: |t·D - T| <= t·(doubt of D) + (doubt of T) + γ(2)·(|T| + its doubt).
     t = Fraction(distance)
-    permanent_of_t = meeting.t_doubt / gamma(8)
-    assert abs(t * meeting.determinant - meeting.t) <= t * meeting.determinant_doubt + gamma(10) * permanent_of_t
+    doubt = t * meeting.determinant_doubt + meeting.t_doubt + gamma(2) * (abs(meeting.t) + meeting.t_doubt)
+    target(bits(abs(t * meeting.determinant - meeting.t), abs(meeting.t)))
+    assert abs(t * meeting.determinant - meeting.t) <= doubt
 
 
 @given(rays_near_triangles())
@@ -174,3 +201,29 @@ def test_normals_are_perpendicular_unit_vectors_on_the_counterclockwise_side(cor
 def cross_sizes(a: Exact, b: Exact) -> Exact:
     (a0, a1, a2), (b0, b1, b2) = map(abs, a), map(abs, b)
     return a1 * b2 + a2 * b1, a2 * b0 + a0 * b2, a0 * b1 + a1 * b0
+
+
+@pytest.mark.parametrize("number", [np.float64, np.float32])
+@given(case=rays_at_fans())
+def test_no_ray_passes_between_triangles_that_share_an_edge_or_a_corner(
+    number: Callable[[float], Any], case: tuple[Ray, Fan]
+) -> None:
+    ray, fan = case
+    note_case(ray=ray, fan=fan)
+    origin, direction, hub, *rim = (tuple(map(number, vector)) for vector in (*ray, *fan))
+    kernel = numpy_kernel(number)
+    distances = [kernel.triangle_distance(origin, direction, hub, one, other) for one, other in pairwise(rim)]
+    assert min(distances) < inf
+
+
+# With these, squares and products overflow, vanish or are no numbers.
+STRANGE = st.sampled_from([0.0, -0.0, 1.0, -2.5, 5e-324, -1e-310, 1e-170, 1e170, -1.7e308, inf, -inf, nan])
+STRANGE_VECTORS = st.tuples(STRANGE, STRANGE, STRANGE)
+
+
+@given(STRANGE_VECTORS, STRANGE_VECTORS, st.tuples(STRANGE_VECTORS, STRANGE_VECTORS, STRANGE_VECTORS))
+def test_whatever_the_numbers_are_the_distance_is_positive(origin: Vector, direction: Vector, corners: Corners) -> None:
+    note_case(origin=origin, direction=direction, corners=corners)
+    numbers = [tuple(map(np.float64, vector)) for vector in (origin, direction, *corners)]
+    with np.errstate(all="ignore"):
+        assert numpy_kernel(np.float64).triangle_distance(*numbers) > 0

@@ -7,6 +7,7 @@ from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from flint import arb, ctx
 
 from reference_tracer.arithmetic import FLOAT, Arithmetic, make_kernel
@@ -15,7 +16,7 @@ from reference_tracer.scene_data import NUMBER_OF_TABLES, SceneData
 from scenes.requirements import Feature
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from reference_tracer.arithmetic import Kernel
 
@@ -48,6 +49,13 @@ def float_kernel() -> Kernel:
 @cache
 def exact_kernel() -> Kernel:
     return make_kernel(EXACT, set(Feature))
+
+
+@cache
+def numpy_kernel(number: Callable[[float], Any]) -> Kernel:
+    """For NumPy's float64 or float32, interpreted: rounds as compiled code does, and divides by zero without error."""
+    functions = {"sqrt": np.sqrt, "floor": np.floor, "exp": np.exp, "inf": number(math.inf), "pi": number(math.pi)}
+    return make_kernel(Arithmetic(f"interpreted {number}", number, functions), set(Feature))
 
 
 def ball_kernel(precision_bits: int) -> tuple[Kernel, Decisions]:
