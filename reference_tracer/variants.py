@@ -8,6 +8,7 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING
 
+from reference_tracer.bounding_volume import certainly_less
 from reference_tracer.vector import along, cross, dot, scale, subtract
 
 if TYPE_CHECKING:
@@ -93,16 +94,18 @@ def cramer_triangle_distance(origin: Vector, direction: Vector, a: Vector, b: Ve
     determinant = -dot(direction, normal)
     to_origin = subtract(origin, a)
     moment = cross(to_origin, direction)
-    if determinant > 0.0:
-        u = dot(second_edge, moment)
-        v = -dot(first_edge, moment)
-        t = dot(to_origin, normal)
-    elif determinant < 0.0:
-        determinant = -determinant
-        u = -dot(second_edge, moment)
-        v = dot(first_edge, moment)
-        t = -dot(to_origin, normal)
-    else:
+    u = dot(second_edge, moment)
+    v = -dot(first_edge, moment)
+    w = determinant - u - v
+    # Beside the triangle, even where a ray along its plane leaves the determinant's sign undecided in balls.
+    if (certainly_less(u, 0.0) or certainly_less(v, 0.0) or certainly_less(w, 0.0)) and (
+        certainly_less(0.0, u) or certainly_less(0.0, v) or certainly_less(0.0, w)
+    ):
+        return inf
+    t = dot(to_origin, normal)
+    if determinant < 0.0:
+        determinant, u, v, t = -determinant, -u, -v, -t
+    elif determinant == 0.0:
         return inf
     # The edges first: from a coplanar neighbour, as in a floor of two triangles, t is 0 and undecidable in balls.
     if u < 0.0 or v < 0.0 or u + v > determinant or t <= 0.0:
