@@ -24,8 +24,9 @@ lint: .venv/test.stamp ## Check style and types only
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
 
-bench: .venv/test.stamp ## Time the tracer beside its peers
+bench: .venv/test.stamp ## Time the tracer beside its peers, and the truth beside floats
 	.venv/bin/python -m benchmarks.peers
+	.venv/bin/python -m benchmarks.truth_cost
 
 clean: ## Remove the environment and all caches; results/ stays
 	rm -rf .venv build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache

@@ -179,18 +179,22 @@ def measure_all(size: int, rounds: int) -> list[Ratio]:
 def document(ratios: Sequence[Ratio], size: int, rounds: int) -> dict[str, Any]:
     """What `--json` prints."""
     return {
-        "machine": {
-            "processor": _processor(),
-            "processors": os.cpu_count(),
-            "system": platform.platform(),
-            "python": platform.python_version(),
-            **{name: version(name) for name in ("mitsuba", "numba")},
-        },
+        "machine": {**machine(), **{name: version(name) for name in ("mitsuba", "numba")}},
         "ratios": [asdict(ratio) for ratio in ratios],
         "date": datetime.now(UTC).date().isoformat(),
         "threads": THREADS,
         "size": size,
         "rounds": rounds,
+    }
+
+
+def machine() -> dict[str, Any]:
+    """What the times depend on, but for the versions of libraries."""
+    return {
+        "processor": _processor(),
+        "processors": os.cpu_count(),
+        "system": platform.platform(),
+        "python": platform.python_version(),
     }
 
 

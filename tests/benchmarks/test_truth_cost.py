@@ -1,0 +1,27 @@
+from __future__ import annotations
+
+import json
+import math
+from typing import TYPE_CHECKING
+
+from benchmarks import truth_cost
+
+if TYPE_CHECKING:
+    import pytest
+
+
+def test_the_document_has_each_scene_beside_both_arithmetics(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(truth_cost, "SCENES", ("ambient-sphere",))
+    monkeypatch.setattr(truth_cost, "STRIDE", 32)
+    truth_cost.main(["--json", "--rounds", "3"])
+    told = json.loads(capsys.readouterr().out)
+    assert list(told)[:2] == ["machine", "ratios"]
+    assert [ratio["name"] for ratio in told["ratios"]] == [
+        "ambient-sphere, interpreted float",
+        "ambient-sphere, compiled float64",
+    ]
+    for ratio in told["ratios"]:
+        assert all(math.isfinite(ratio[key]) and ratio[key] > 0 for key in ("truth_seconds", "other_seconds"))
+        assert 0 < ratio["low"] <= ratio["ratio"] <= ratio["high"]
