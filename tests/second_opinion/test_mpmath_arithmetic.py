@@ -20,7 +20,8 @@ from tests.second_opinion.truth import MORE_DIGITS, with_own_error
 if TYPE_CHECKING:
     from reference_tracer.arithmetic import Kernel
     from reference_tracer.certification import Enclosure
-    from scenes.scene import Scene
+    from reference_tracer.scene_data import SceneData
+    from scenes.requirements import Feature
 
 PIXELS = 20
 
@@ -35,28 +36,28 @@ def mpmath_arithmetic() -> Arithmetic:
 def test_mpmath_agrees_with_the_certified_truth_at_sampled_pixels(name: str) -> None:
     scene = open_scene(name)
     certifier = Certifier(scene)
+    features = required_features(scene)
+    data = build_tables(scene, features, mpmath_arithmetic())  # floats are exact in any precision
     numbers = Random(name)
     decided = 0
     for _ in range(PIXELS):
         column, line = numbers.randrange(scene.camera.width), numbers.randrange(scene.camera.height)
         pixel = certifier.pixel(column, line)
-        opinion = with_own_error(lambda column=column, line=line: traced(scene, column, line))
+        opinion = with_own_error(lambda column=column, line=line: traced(features, data, column, line))
         decided += pixel.undecided is None
         outcomes = (pixel,) if pixel.undecided is None else pixel.undecided.outcomes
         assert any(holds(outcome, opinion) for outcome in outcomes), (column, line, pixel, opinion)
     assert decided > 0
 
 
-def traced(scene: Scene, column: int, line: int) -> Any:
+def traced(features: frozenset[Feature], data: SceneData, column: int, line: int) -> Any:
     """The pixel's value in the precision that mpmath is working in."""
-    features = required_features(scene)
     kernel = kernel_in_mpmath(features, mp.prec)
-    data = build_tables(scene, features, mpmath_arithmetic())
     return kernel.radiance_at(data, kernel.camera_frame(data), column + mpf(0.5), line + mpf(0.5))
 
 
 @cache
-def kernel_in_mpmath(features: frozenset[str], precision: int) -> Kernel:
+def kernel_in_mpmath(features: frozenset[Feature], precision: int) -> Kernel:
     assert precision == mp.prec, "π has as many digits as mpmath works with"
     return make_kernel(mpmath_arithmetic(), features)
 
