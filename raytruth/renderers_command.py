@@ -41,7 +41,7 @@ def renderers(*names: str, as_json: AsJson = False) -> None:
                 record["name"],
                 record["version"] or "missing",
                 "; ".join(f"{name} {paths}" for name, paths in record["integrators"].items()),
-                record["error_model"],
+                "; ".join(f"{subject}: {clause}" for subject, clause in record["error_model"].items()),
                 record["install"],
             )
             for record in records
@@ -62,6 +62,6 @@ def _record(renderer: Renderer) -> dict[str, Any]:
             else integrator.light_paths
             for integrator in renderer.integrators
         },
-        "error_model": renderer.error_model.description,
+        "error_model": renderer.error_model.in_words(),
         "install": renderer.install,
     }

@@ -37,7 +37,7 @@ class ClosedFormRenderer:
     name = "closed_form"
     integrators = (Integrator("local", r"E(e|DL)"),)
     error_model = ErrorModel(
-        f"float64 with {REORDERING_BITS} bits for another order of operations, no ray offset, output in float32",
+        f"float64 with {REORDERING_BITS} bits for another order of operations",
         precision_bits=FLOAT64_BITS - REORDERING_BITS,
     )
     install = "part of raytruth"

@@ -33,7 +33,7 @@ class ReferenceTracer:
     name = "raytruth"
     integrators = (Integrator("whitted", WHITTED, has_depth=True),)
     error_model = ErrorModel(
-        f"float64 with {LIBRARY_BITS} bits for the mathematical library, no ray offset, output in float32",
+        f"float64 with {LIBRARY_BITS} bits for the mathematical library",
         precision_bits=FLOAT64_BITS - LIBRARY_BITS,
     )
     install = "part of raytruth"

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import math
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import mpmath
@@ -8,10 +10,13 @@ from flint import arb
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from comparisons.error_model import ErrorModel
-from comparisons.ray_offsets import offset_overrides
-from reference_tracer.balls import Decisions, ball_arithmetic, every_outcome
-from tests.reference_tracer.kernels import kept_precision
+from comparisons.error_model import ErrorModel, RayOffset
+from comparisons.ray_offsets import offset_constants, offset_overrides
+from reference_tracer.arithmetic import make_kernel
+from reference_tracer.balls import Decisions, every_outcome, rounded_ball_arithmetic
+from reference_tracer.scene_data import SPHERE_CENTER, SPHERE_RADIUS, TRIANGLE_A, TRIANGLE_B, TRIANGLE_C
+from scenes.requirements import Feature
+from tests.reference_tracer.kernels import kept_precision, scene_data
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -30,11 +35,15 @@ def keep_precision() -> Iterator[None]:
     yield from kept_precision()
 
 
-def overrides(bits: int = 53, offset: float = OFFSET, shortening: float = SHORTENING) -> tuple[Any, Decisions]:
+LIKE_MITSUBA = RayOffset(OFFSET, OFFSET)
+
+
+@cache
+def kernel_of(offset: RayOffset = LIKE_MITSUBA, bits: int = 53) -> tuple[Any, Decisions]:
     decisions = Decisions()
-    functions = offset_overrides(ErrorModel("", bits, offset, shortening), decisions)
-    ball_arithmetic(bits, decisions, functions)
-    return functions, decisions
+    model = ErrorModel("", bits, offset, SHORTENING)
+    arithmetic = rounded_ball_arithmetic(bits, decisions, offset_constants(model))
+    return make_kernel(arithmetic, set(Feature), offset_overrides(model)), decisions
 
 
 def balls(vector: Any) -> Any:
@@ -48,28 +57,92 @@ def holds(ball: Any, value: Any) -> bool:
         return bool(low - slack <= value <= high + slack)
 
 
-def test_a_renderer_without_offsets_changes_nothing() -> None:
-    assert overrides(offset=0.0, shortening=0.0)[0] == {}
-    assert set(overrides(offset=0.0)[0]) == {"shadow_ray_end"}
-    assert set(overrides(shortening=0.0)[0]) == {"departure", "distance_to_other_side"}
+def test_only_what_the_offset_changes_is_overridden() -> None:
+    def names(offset: RayOffset, shortening: float = 0.0) -> set[str]:
+        return set(offset_overrides(ErrorModel("", 24, offset, shortening)))
+
+    tested = {"distance_to_sphere", "distance_to_triangle"}
+    assert names(RayOffset()) == set()
+    assert names(RayOffset(), SHORTENING) == {"shadow_ray_end"}
+    assert names(LIKE_MITSUBA) == {"departure", "distance_to_other_side"}
+    assert names(RayOffset(absolute=OFFSET, excludes_surface=False)) == {"departure", *tested}
+    assert names(RayOffset(minimum_distance=OFFSET, excludes_surface=False)) == tested
 
 
 def test_shadow_rays_end_before_the_light() -> None:
-    assert overrides()[0]["shadow_ray_end"]() == arb(1 - SHORTENING)
+    end = kernel_of()[0].shadow_ray_end()
+    assert end.contains(arb(1 - SHORTENING))
+    assert float(end.rad()) < 2.0**-50
 
 
-@pytest.mark.parametrize(
-    ("point", "largest"), [((0.0, 0.0, 0.0), 0), ((1.0, -7.0, 3.0), 7), ((-2.5, 0.5, 1.0), 2.5), ((0.5, 1.0, 4.0), 4)]
-)
-def test_a_departing_ray_starts_off_the_surface_by_the_offset_times_one_more_than_the_largest_coordinate(
-    point: tuple[float, float, float], largest: float
+POINTS = [((0.0, 0.0, 0.0), 0.0), ((1.0, -7.0, 3.0), 7.0), ((-2.5, 0.5, 1.0), 2.5), ((0.5, 1.0, 4.0), 4.0)]
+POLICIES = [
+    LIKE_MITSUBA,
+    RayOffset(absolute=OFFSET),
+    RayOffset(relative=OFFSET),
+    RayOffset(OFFSET, 3 * OFFSET, excludes_surface=False),
+    RayOffset(absolute=OFFSET, along="direction", excludes_surface=False),
+    RayOffset(relative=OFFSET, along="direction", excludes_surface=False),
+]
+
+
+@pytest.mark.parametrize("offset", POLICIES, ids=RayOffset.in_words)
+@pytest.mark.parametrize(("point", "largest"), POINTS)
+def test_a_departing_ray_starts_where_the_policy_says(
+    offset: RayOffset, point: tuple[float, float, float], largest: float
 ) -> None:
-    functions, _ = overrides()
-    normal = (0.0, -0.75, 0.5)  # any vector: it is not made a unit vector here
-    start, left = functions["departure"](5, balls(point), balls(normal))
+    normal, direction = (0.0, -0.75, 0.5), (3.0, 0.0, -4.0)  # the direction has length 5, the normal need not have 1
+    start, left = kernel_of(offset)[0].departure(5, balls(point), balls(normal), balls(direction))
     assert left == 5
-    for coordinate, p, n in zip(start, point, normal, strict=True):
-        assert coordinate == p + n * OFFSET * (1 + largest)  # dyadic numbers of few bits: nothing is rounded
+    vector = normal if offset.along == "normal" else (0.6, 0.0, -0.8)
+    for coordinate, p, v in zip(start, point, vector, strict=True):
+        exact = p + v * (offset.absolute + offset.relative * largest)
+        assert float(abs(coordinate - exact).upper()) <= 2.0**-49 * (abs(p) + OFFSET * 32)
+
+
+SPHERE = scene_data({SPHERE_CENTER: [(arb(0), arb(0), arb(0))], SPHERE_RADIUS: [arb(1)]})
+CORNERS = {TRIANGLE_A: (-1, -1, 0), TRIANGLE_B: (1, -1, 0), TRIANGLE_C: (0, 1, 0)}
+TRIANGLE = scene_data({table: [balls(corner)] for table, corner in CORNERS.items()})
+LEAST = 2.0**-6
+
+
+@pytest.mark.parametrize("speed", [1.0, 4.0])
+def test_with_a_least_distance_each_root_of_a_sphere_is_tested_by_itself(speed: float) -> None:
+    kernel, _ = kernel_of(RayOffset(minimum_distance=LEAST, excludes_surface=False))
+    for start, expected in (
+        (-3.0, 2.0),  # from far before it, the near side
+        (-1.0 - 2 * LEAST, 2 * LEAST),
+        (-1.0 - LEAST / 2, 2.0 + LEAST / 2),  # the near side is too near, the far one is not
+        (-1.0, 2.0),  # on it, as a ray that goes on inside
+        (1.0 - 2 * LEAST, 2 * LEAST),
+        (1.0 - LEAST / 2, math.inf),
+        (1.0, math.inf),
+    ):
+        ray = balls((0.0, 0.0, start)), balls((0.0, 0.0, speed))
+        for left in (-1, 0):  # it does not matter where the ray says that it comes from
+            distance = kernel.distance_to_sphere(SPHERE, *ray, left, 0)
+            assert float(distance.mid()) * speed == pytest.approx(expected, rel=2.0**-40), start
+
+
+@pytest.mark.parametrize("speed", [1.0, 4.0])
+def test_with_a_least_distance_a_triangle_is_hit_only_beyond_it(speed: float) -> None:
+    kernel, _ = kernel_of(RayOffset(minimum_distance=LEAST, excludes_surface=False))
+    for height, expected in ((1.0, 1.0), (2 * LEAST, 2 * LEAST), (LEAST / 2, math.inf), (0.0, math.inf)):
+        ray = balls((0.0, 0.0, height)), balls((0.0, 0.0, -speed))
+        distance = kernel.distance_to_triangle(TRIANGLE, *ray, 0, 0)
+        assert float(distance.mid()) * speed == pytest.approx(expected, rel=2.0**-40), height
+
+
+@pytest.mark.parametrize(("absolute", "clear"), [(2.0**-30, False), (2.0**-10, True)])
+def test_a_surface_that_is_not_excluded_may_be_met_again_where_the_offset_is_no_larger_than_rounding(
+    absolute: float, clear: bool
+) -> None:
+    kernel, decisions = kernel_of(RayOffset(absolute=absolute, excludes_surface=False), 24)
+    blurred = (arb(0), arb(0), arb(0, 2.0**-20))  # a hit point, as float32 knows it
+    start, left = kernel.departure(0, blurred, balls((0, 0, 1)), balls((0, 0, 1)))
+    run = lambda: kernel.distance_to_triangle(TRIANGLE, start, balls((0, 0, 1)), left, 0)  # noqa: E731 - used here only
+    outcomes = {bool(distance.is_finite()) for distance in every_outcome(run, decisions, 4)}
+    assert outcomes == ({False} if clear else {False, True})
 
 
 COORDINATE = st.floats(-3, 3, width=32)
@@ -88,7 +161,7 @@ def test_the_other_side_of_a_sphere_is_where_it_is_from_the_place_that_the_ray_s
 ) -> None:
     assume(sum(abs(part) for part in toward) > 0.1)
     assume(sum(abs(part) for part in direction) > 0.1)
-    functions, decisions = overrides(bits)
+    kernel, decisions = kernel_of(bits=bits)
     with mpmath.workprec(300):
         normal = [mpmath.mpf(part) / length(map(mpmath.mpf, toward)) for part in toward]
         point = [c + radius * n for c, n in zip(center, normal, strict=True)]
@@ -106,7 +179,7 @@ def test_the_other_side_of_a_sphere_is_where_it_is_from_the_place_that_the_ray_s
         # Balls that hold the exact origin, as wide as a renderer of so many bits would know it.
         start = tuple(arb(float(part), 2.0**-bits * (abs(float(part)) + 2.0**-20)) for part in origin)
     outcomes = list(
-        every_outcome(lambda: functions["distance_to_other_side"](start, balls(direction), balls(center)), decisions, 2)
+        every_outcome(lambda: kernel.distance_to_other_side(start, balls(direction), balls(center)), decisions, 2)
     )
     assert len(outcomes) == 1
     assert holds(outcomes[0], expected)
@@ -118,20 +191,20 @@ def test_the_other_side_of_a_sphere_is_where_it_is_from_the_place_that_the_ray_s
 
 
 def test_a_ray_that_leaves_outward_does_not_meet_its_sphere_again() -> None:
-    functions, _ = overrides(24)
+    kernel, _ = kernel_of(bits=24)
     center = balls((0, 0, 0))
     for direction in ((0, 0, 1), (1, 0, 1), (1, 0, 0)):  # a tangent leaves, too
-        distance = functions["distance_to_other_side"](balls((0, 0, 1 + OFFSET)), balls(direction), center)
+        distance = kernel.distance_to_other_side(balls((0, 0, 1 + OFFSET)), balls(direction), center)
         assert not distance.is_finite()
         assert distance > 0
 
 
 def test_a_ray_that_may_graze_its_sphere_does_both() -> None:
-    functions, decisions = overrides(24)
+    kernel, decisions = kernel_of(bits=24)
     grazing = (arb(1), arb(0), arb(0, 2.0**-20))
     outcomes = list(
         every_outcome(
-            lambda: functions["distance_to_other_side"](balls((0, 0, 1 - OFFSET)), grazing, balls((0, 0, 0))),
+            lambda: kernel.distance_to_other_side(balls((0, 0, 1 - OFFSET)), grazing, balls((0, 0, 0))),
             decisions,
             2,
         )

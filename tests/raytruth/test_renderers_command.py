@@ -21,8 +21,21 @@ def test_json_tells_version_abilities_and_how_to_install(capsys: pytest.CaptureF
     assert told["name"] == "raytruth"
     assert told["available"] is True
     assert told["integrators"] == {"whitted": "ES{0,n}(DL|e)"}
-    assert "float64" in told["error_model"]
     assert told["install"]
+
+
+def test_the_error_model_is_told_field_by_field_in_words(capsys: pytest.CaptureFixture[str]) -> None:
+    told = {record["name"]: record["error_model"] for record in document(capsys, "renderers")["renderers"]}
+    model = told["mitsuba"]
+    assert list(model) == list(told["raytruth"])
+    assert model["arithmetic"] == "one operation errs by at most 2^-24 of its result"
+    assert model["rays that leave a surface start"].startswith("8.94e-05·(1 + max|p|) along the normal")
+    assert model["shadow rays end"] == "0.000894 of the distance before the light"
+    assert model["output"] == "float32, linear, rounded to the nearest, not clipped"
+    assert model["random numbers"] != "none"
+    assert told["raytruth"]["random numbers"] == "none"
+    line = run(capsys, "renderers", "raytruth")[1]
+    assert "; output: float32, linear, rounded to the nearest, not clipped" in line
 
 
 def test_a_renderer_that_cannot_run_is_missing(

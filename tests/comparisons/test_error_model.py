@@ -1,0 +1,53 @@
+from __future__ import annotations
+
+from dataclasses import fields
+
+import pytest
+
+from comparisons.error_model import ErrorModel, RayOffset
+from comparisons.renderers.catalogue import all_renderers
+from scenes.library import library_names, open_scene
+
+CLAUSES = {
+    RayOffset(): "on the surface; the surface cannot be hit again there",
+    RayOffset(excludes_surface=False): "on the surface; the surface is tested as all others are",
+    RayOffset(
+        absolute=1e-4, excludes_surface=False
+    ): "0.0001 along the normal; the surface is tested as all others are",
+    RayOffset(relative=0.5): "0.5·max|p| along the normal; the surface cannot be hit again there",
+    RayOffset(0.25, 0.25): "0.25·(1 + max|p|) along the normal; the surface cannot be hit again there",
+    RayOffset(0.25, 0.5): "0.25 + 0.5·max|p| along the normal; the surface cannot be hit again there",
+    RayOffset(1e-3, along="direction", excludes_surface=False): (
+        "0.001 along the ray; the surface is tested as all others are"
+    ),
+    RayOffset(minimum_distance=1e-3, excludes_surface=False): (
+        "on the surface, hits nearer than 0.001 are ignored; the surface is tested as all others are"
+    ),
+}
+
+
+@pytest.mark.parametrize("offset", CLAUSES, ids=RayOffset.in_words)
+def test_a_ray_offset_is_told_in_words(offset: RayOffset) -> None:
+    assert offset.in_words() == CLAUSES[offset]
+
+
+def test_offsets_that_no_renderer_can_have_are_refused() -> None:
+    with pytest.raises(ValueError, match="not negative"):
+        RayOffset(absolute=-1e-4)
+    with pytest.raises(ValueError, match="tested as all others"):
+        RayOffset(minimum_distance=1e-4)
+    with pytest.raises(ValueError, match="tested as all others"):
+        RayOffset(absolute=1e-4, along="direction")
+
+
+def test_the_words_have_a_clause_for_every_field() -> None:
+    assert len(ErrorModel("a renderer", 24).in_words()) == len(fields(ErrorModel))
+
+
+def test_a_renderer_declares_random_choices_if_and_only_if_some_scene_is_stochastic() -> None:
+    scenes = [open_scene(name) for name in library_names()]
+    for renderer in all_renderers().values():
+        is_random = any(
+            renderer.is_stochastic(scene, integrator.name) for scene in scenes for integrator in renderer.integrators
+        )
+        assert is_random == bool(renderer.error_model.random_choices), renderer.name
