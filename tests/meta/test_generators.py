@@ -20,6 +20,7 @@ from tests.properties.strategies import (
     rational_frames,
     rational_refractions,
     rational_unit_vectors,
+    rays_at_fans,
     rays_near_spheres,
     rays_near_triangles,
     triangles,
@@ -78,6 +79,14 @@ def sphere_meeting(case: Any) -> test_sphere.Meeting:
         pytest.param(lambda m: m.half_linear == 0 and m.constant < 0, id="starts at the foot"),
         pytest.param(lambda m: m.size > 10**6, id="large"),
         pytest.param(lambda m: m.size < Fraction(1, 10**5), id="small"),
+        pytest.param(lambda m: 0 < m.constant < m.radius * 3 and m.radius == 10**7, id="just above a huge sphere"),
+        pytest.param(lambda m: 0 > m.constant > -m.radius * 3 and m.radius == 10**7, id="just inside a huge sphere"),
+        pytest.param(
+            lambda m: 0 < abs(m.constant) < m.radius**2 * Fraction(1, 2**50), id="within some ulps of the surface"
+        ),
+        pytest.param(
+            lambda m: m.is_certain() and abs(m.gap) < m.doubt and m.must_hit(), id="nearly tangent, yet certain"
+        ),
     ],
 )
 def test_rays_near_spheres_reach(is_the_case: Callable[[test_sphere.Meeting], bool]) -> None:
@@ -96,12 +105,22 @@ def test_rays_near_spheres_reach(is_the_case: Callable[[test_sphere.Meeting], bo
         pytest.param(lambda m: m.is_certain() and m.t < 0, id="triangle behind"),
         pytest.param(lambda m: m.determinant == 0, id="parallel or without area"),
         pytest.param(lambda m: m.determinant > 0 and m.u == 0 and m.must_hit(), id="exactly on an edge"),
-        pytest.param(lambda m: m.determinant > 0 and m.u == m.v == 0 and m.must_hit(), id="exactly at a corner"),
+        pytest.param(lambda m: m.must_hit() and (m.u, m.v, m.w).count(0) == 2, id="exactly at a corner"),
         pytest.param(lambda m: m.determinant > 0 and 0 < -m.u < m.u_doubt, id="outside within rounding"),
     ],
 )
 def test_rays_near_triangles_reach(is_the_case: Callable[[test_triangle.Meeting], bool]) -> None:
     reaches(rays_near_triangles(), lambda case: is_the_case(test_triangle.Meeting(*case)))
+
+
+def test_rays_at_fans_reach_the_hub_the_spokes_and_what_is_just_beside_them() -> None:
+    def areas(case: Any) -> test_triangle.Meeting:
+        ray, (hub, one, other, *_) = case
+        return test_triangle.Meeting(ray, (hub, one, other))
+
+    reaches(rays_at_fans(), lambda case: areas(case).v == areas(case).w == 0)
+    reaches(rays_at_fans(), lambda case: areas(case).w == 0 < areas(case).v)
+    reaches(rays_at_fans(), lambda case: 0 < abs(areas(case).w) < areas(case).doubts[2])
 
 
 @pytest.mark.parametrize("sign", [1, -1])
