@@ -49,7 +49,7 @@ class FeasibleSet:
     @property
     def outcomes(self) -> NDArray[np.int64]:
         """How many outcomes each pixel has, 0 where it cannot be judged; shape (height, width)."""
-        counts: NDArray[np.int64] = np.isfinite(self.low[..., 0]).sum(axis=2)
+        counts: NDArray[np.int64] = (~np.isnan(self.low[..., 0])).sum(axis=2)
         return counts
 
     def hull(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -60,7 +60,8 @@ def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasib
     value = np.asarray(image, dtype=np.float64)
     from_truth = np.abs(value - truth)
     middles = 0.5 * (feasible.low + feasible.high)
-    from_outcomes = np.abs(value[:, :, np.newaxis] - middles)
+    with np.errstate(invalid="ignore"):  # of two infinities
+        from_outcomes = np.abs(value[:, :, np.newaxis] - middles)
     place = np.argmin(_filled(from_outcomes.max(axis=3)), axis=2)
     nearest = np.take_along_axis(from_outcomes, place[:, :, np.newaxis, np.newaxis], axis=2)[:, :, 0]
     ambiguous = (feasible.outcomes > 1)[:, :, np.newaxis]

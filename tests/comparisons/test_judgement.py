@@ -44,6 +44,24 @@ def test_the_distance_counts_half_widths_from_the_middle_of_the_box() -> None:
         assert distance(value, box) == expected
 
 
+@given(st.floats(-1e3, 1e3), st.floats(0, 1e-6))
+def test_the_ends_of_a_box_are_inside_and_their_neighbours_are_not(low: float, width: float) -> None:
+    high = low + width
+    images = [
+        np.full((1, 1, 3), value) for value in (low, high, np.nextafter(low, -np.inf), np.nextafter(high, np.inf))
+    ]
+    distances = [float(distances_in_tolerances(image, boxes([(low, high)]))[0, 0]) for image in images]
+    assert [value <= 1 for value in distances] == [True, True, False, False]
+
+
+def test_infinity_lies_in_a_box_that_ends_there() -> None:
+    overflowing = boxes([(6e4, math.inf)])
+    for value, inside in ((math.inf, True), (6.1e4, True), (5.9e4, False), (-math.inf, False), (math.nan, False)):
+        assert (distance(value, overflowing) <= 1) == inside
+    assert distance(math.inf, boxes([(math.inf, math.inf)])) <= 1
+    assert largest_error(row(math.inf), truth(7e4), boxes([(math.inf, math.inf)])) == math.inf
+
+
 def test_the_worst_channel_counts() -> None:
     assert distance((0.5, 0.625, 1.25), boxes([(0.25, 0.75)])) == 3
 
@@ -131,6 +149,7 @@ def test_the_worst_pixel_of_several_rows_is_found_by_column_and_row() -> None:
     shaped = FeasibleSet(
         low=flat.low.reshape(2, 3, 1, 3),
         high=flat.high.reshape(2, 3, 1, 3),
+        merged=flat.merged.reshape(2, 3),
         hit_primitives=flat.hit_primitives.reshape(2, 3, 1),
         hit_low=flat.hit_low.reshape(2, 3, 1, -1),
         hit_high=flat.hit_high.reshape(2, 3, 1, -1),
