@@ -39,16 +39,14 @@ def linked_arithmetic(
     Sets the precision of this process.
     """
     ctx.prec = precision_bits + MARGIN_BITS
-    unit_roundoff = arb(2) ** -precision_bits
-    number_type = type(
-        "RoundedLinkedBall",
-        (LinkedBall,),
-        {"__slots__": (), "unit_roundoff": unit_roundoff, "about_one": arb(1, unit_roundoff)},
-    )
+
+    class RoundedLinkedBall(LinkedBall):
+        __slots__ = ()
+        unit_roundoff = arb(2) ** -precision_bits
+        about_one = arb(1, arb(2) ** -precision_bits)
 
     def constant(value: Any) -> LinkedBall:
-        made: LinkedBall = number_type(value.mid(), value, (), value.rad())
-        return made
+        return RoundedLinkedBall(value.mid(), value, (), value.rad())
 
     functions = {
         **_comparisons(decisions),
@@ -60,7 +58,7 @@ def linked_arithmetic(
         "inf": constant(arb(math.inf)),
         "max": _max,
         "min": _min,
-        "pi": constant(arb.pi() * number_type.about_one),
+        "pi": constant(arb.pi() * RoundedLinkedBall.about_one),
         "power": _power,
         "sqrt": _sqrt,
         "tan": _tan,

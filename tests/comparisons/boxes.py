@@ -18,7 +18,8 @@ def boxes(*pixels: list[Box]) -> FeasibleSet:
         for place, (lowest, highest) in enumerate(pixel):
             low[0, x, place], high[0, x, place] = lowest, highest
     nowhere = np.full((1, len(pixels), 1, HIT_VALUES), np.nan)
-    return FeasibleSet(low, high, np.full((1, len(pixels), 1), -1), nowhere, nowhere)
+    nothing = np.full((1, len(pixels), 1), -1)
+    return FeasibleSet(low, high, np.zeros((1, len(pixels)), bool), nothing, nowhere, nowhere)
 
 
 def hits(*pixels: list[tuple[int, Box]]) -> FeasibleSet:
@@ -33,4 +34,4 @@ def hits(*pixels: list[tuple[int, Box]]) -> FeasibleSet:
             if primitive >= 0:
                 low[0, x, place], high[0, x, place] = lowest, highest
     color = np.ones((1, len(pixels), 1, 3))
-    return FeasibleSet(color, color, primitives, low, high)
+    return FeasibleSet(color, color, np.zeros((1, len(pixels)), bool), primitives, low, high)

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -197,9 +198,7 @@ def test_glass_in_the_dark_is_black(tmp_path: Path) -> None:
 def test_a_noisy_image_of_which_nothing_can_be_judged_fails(tmp_path: Path) -> None:
     whole = evidence("glass")
     nowhere = np.full_like(whole.feasible.low, np.nan)
-    blind = type(whole.feasible)(
-        nowhere, nowhere, whole.feasible.hit_primitives, whole.feasible.hit_low, whole.feasible.hit_high
-    )
+    blind = replace(whole.feasible, low=nowhere, high=nowhere)
     unjudged = Evidence(whole.scene, whole.truth, whole.rays, blind)
     cell = run_cell(PLACE, Pretender(noisy(0.0, "glass")), 1, unjudged, tmp_path)
     assert cell.verdict == Verdict.FAIL
