@@ -65,7 +65,7 @@ FAMILIES: dict[str, Family] = {
     ),
     "camera-inside-glass": Family(optics.camera_inside_glass, (0.0, 0.5, 1 - 1e-3, 1 - 1e-9)),
     "mirror-corridor": Family(optics.mirror_corridor, (1.0, 10.0, 50.0)),
-    "nested-dielectrics": Family(optics.nested_dielectrics, (1.0, 2.0, 3.0, 4.0)),
+    "nested-dielectrics": Family(optics.nested_dielectrics, (1.0, 2.0, 3.0)),
 }
 
 

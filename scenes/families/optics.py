@@ -107,7 +107,7 @@ def nested_dielectrics(parameter: float, seed: int) -> Scene:
     2 surfaces a sphere, and its tree is followed through all of them and two bounces more.
     """
     dx, dy, dz = untidy(seed, 0.03)
-    indices = (1.5, 1.2, 1.7, 1.1)
+    indices = (1.5, 1.2, 1.7)
     names = [f"glass {k}" for k in range(int(parameter))]
     media = {
         name: {"dielectric": {"index_of_refraction": indices[k], "outside": names[k - 1] if k else None}}
