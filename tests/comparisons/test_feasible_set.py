@@ -68,9 +68,13 @@ def is_inside(image: NDArray[Any], feasible: FeasibleSet) -> NDArray[np.bool_]:
     return np.asarray(np.any(np.all(in_channels, axis=3), axis=2))
 
 
+# A renderer with ray offsets does not give the truth behind mirrors and in glass: tests/meta/test_offset_renderers.py.
+WITHOUT_OFFSETS = [name for name, model in MODELS.items() if not model.ray_offset.moves_rays]
+
+
 # At 12 bits most boxes of the mesh's tree are undecided, which takes long.
 @pytest.mark.parametrize(
-    ("name", "model"), [(n, m) for n in SCENES for m in MODELS if (n, m) != ("trefoil-knot", "wide")]
+    ("name", "model"), [(n, m) for n in SCENES for m in WITHOUT_OFFSETS if (n, m) != ("trefoil-knot", "wide")]
 )
 def test_every_pixels_set_holds_the_truth_and_what_a_float32_file_keeps_of_it(name: str, model: str) -> None:
     feasible = feasible_of(name, model)
