@@ -1,7 +1,7 @@
 """Intersection of a ray and a triangle (docs/spec.md, TRI).
 
 Seen along the ray, the triangle is one of the plane, and the ray the plane's origin. It hits where the origin is on the
-same side of all three edges; t is then the mean of the corners' depths, weighted by the areas that they face.
+same side of all three edges; t is then where the ray meets the triangle's plane.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from reference_tracer.vector import cross, normalize, subtract
+from reference_tracer.vector import cross, dot, normalize, subtract
 
 if TYPE_CHECKING:
     from reference_tracer.numbers import Scalar, Vector
@@ -29,18 +29,21 @@ def triangle_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c
     ray = turned(direction, axis)
     shear_x = ray[0] / ray[2]
     shear_y = ray[1] / ray[2]
-    ax, ay, a_depth = sheared(turned(subtract(a, origin), axis), shear_x, shear_y)
-    bx, by, b_depth = sheared(turned(subtract(b, origin), axis), shear_x, shear_y)
-    cx, cy, c_depth = sheared(turned(subtract(c, origin), axis), shear_x, shear_y)
+    to_corner = subtract(a, origin)
+    ax, ay = sheared(turned(to_corner, axis), shear_x, shear_y)
+    bx, by = sheared(turned(subtract(b, origin), axis), shear_x, shear_y)
+    cx, cy = sheared(turned(subtract(c, origin), axis), shear_x, shear_y)
     u = cx * by - cy * bx
     v = ax * cy - ay * cx
     w = bx * ay - by * ax
     if (u < 0.0 or v < 0.0 or w < 0.0) and (u > 0.0 or v > 0.0 or w > 0.0):
         return inf
-    area = u + v + w
-    if area == 0.0:
+    # Not from the corners' depths, whose mean loses what a far corner rounds: of a floor the plane's distance is exact.
+    normal = cross(subtract(b, a), subtract(c, a))
+    determinant = dot(direction, normal)
+    if determinant == 0.0:
         return inf
-    distance = (u * a_depth + v * b_depth + w * c_depth) / area / ray[2]
+    distance = dot(to_corner, normal) / determinant
     if distance > 0.0:
         return distance
     return inf
@@ -63,9 +66,9 @@ def turned(a: Vector, last: int) -> Vector:
     return (a[1], a[2], a[0])
 
 
-def sheared(a: Vector, shear_x: Scalar, shear_y: Scalar) -> Vector:
-    """The place in the plane across the ray, and the depth along its longest axis."""
-    return (a[0] - shear_x * a[2], a[1] - shear_y * a[2], a[2])
+def sheared(a: Vector, shear_x: Scalar, shear_y: Scalar) -> tuple[Scalar, Scalar]:
+    """The place in the plane across the ray."""
+    return (a[0] - shear_x * a[2], a[1] - shear_y * a[2])
 
 
 def triangle_normal(a: Vector, b: Vector, c: Vector) -> Vector:
