@@ -13,7 +13,7 @@ from flint import arb
 from comparisons.ray_offsets import offset_constants, offset_overrides
 from reference_tracer.balls import Decisions, rounded_ball_arithmetic
 from reference_tracer.linked_arithmetic import linked_arithmetic
-from reference_tracer.linked_balls import condensed, enclosure
+from reference_tracer.linked_balls import condensed, enclose, enclosure
 from reference_tracer.rendering import prepare
 from reference_tracer.traversal import NOTHING
 
@@ -97,6 +97,7 @@ class LinkedRays:
         linked_weight = tuple(arithmetic.functions["ball"](channel) for channel in weight)
         children: list[Ray] = []
         local = kernel.trace_ray(self.prepared.data, (origin, direction, linked_weight, *rest), children)
+        enclose([*local, *(number for child in children for vector in child[:3] for number in vector)])
         return _box(local), [(*_condensed_ray(child[0], child[1]), _box(child[2]), *child[3:]) for child in children]
 
     def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:

@@ -42,11 +42,11 @@ def linked_arithmetic(
 
     class RoundedLinkedBall(LinkedBall):
         __slots__ = ()
-        unit_roundoff = arb(2) ** -precision_bits
+        roundoff = arb(0, arb(2) ** -precision_bits)
         about_one = arb(1, arb(2) ** -precision_bits)
 
     def constant(value: Any) -> LinkedBall:
-        return RoundedLinkedBall(value.mid(), value, (), value.rad())
+        return RoundedLinkedBall(value.mid(), value, (), ZERO if value.is_exact() else value - value.mid())
 
     functions = {
         **_comparisons(decisions),

@@ -21,10 +21,10 @@ import itertools
 from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from flint import arb
+from flint import arb, arb_mat
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
 ZERO, ONE, MINUS_ONE = arb(0), arb(1), arb(-1)
 WITHIN_ONE = arb(0, 1)
@@ -38,13 +38,14 @@ Link = tuple["LinkedBall", Any]
 
 
 class LinkedBall:
-    """A number that knows what it was made from; each operation errs by less than `unit_roundoff`, relatively."""
+    """A number that knows what it was made from."""
 
     __slots__ = ("age", "center", "error", "is_symbol", "links", "range", "sweep")
 
-    unit_roundoff: Any = ZERO
+    roundoff: Any = ZERO
+    """From -u to u, where u is the largest relative error of one operation."""
     about_one: Any = ONE
-    """1 ± unit_roundoff."""
+    """1 ± u."""
 
     def __init__(self, center: Any, holds: Any, links: tuple[Link, ...] = (), error: Any = ZERO) -> None:
         self.center = center
@@ -53,14 +54,14 @@ class LinkedBall:
         """Holds all its values."""
         self.links = links
         self.error = error
-        """At most this much was added to it when it was made, by rounding."""
+        """Around 0: holds what was added to it when it was made, by rounding."""
         self.is_symbol = False
         self.sweep: Sweep | None = None
         self.age = next(_ages)
 
     def rounded(self, center: Any, exact: Any, *links: Link) -> LinkedBall:
         """A result of one operation, whose exact values lie in `exact`."""
-        return self.__class__(center, exact * self.about_one, links, abs(exact) * self.unit_roundoff)
+        return self.__class__(center, exact * self.about_one, links, exact * self.roundoff)
 
     def __add__(self, other: LinkedBall) -> LinkedBall:
         return self.rounded(self.center + other.center, self.range + other.range, (self, ONE), (other, ONE))
@@ -96,24 +97,27 @@ class Sweep(NamedTuple):
     symbols: list[Link]
     """The derivatives by the symbols."""
     error: Any
-    """How much all roundings together may have added: not negative."""
+    """Around 0: holds what all roundings together may have added."""
 
 
-def sweep_back(*results: Link) -> Sweep:
-    """The derivatives of the sum of results, each times a factor, by all that it was made from; the youngest first."""
+def sweep_back(seeds: Iterable[Link], zero: Any) -> Sweep:
+    """The derivatives of a sum of numbers, each times a factor, by all that it was made from; the youngest first.
+
+    The factors, and so all derivatives, may be columns of several sums at once; `zero` is the sum of nothing.
+    """
     derivatives: dict[int, Any] = {}
     numbers: dict[int, LinkedBall] = {}
-    for number, factor in results:
-        derivatives[number.age] = derivatives.get(number.age, ZERO) + factor
+    for number, factor in seeds:
+        derivatives[number.age] = derivatives.get(number.age, zero) + factor
         numbers[number.age] = number
     waiting = [-number.age for number in numbers.values() if number.links]
     heapify(waiting)
-    error = ZERO
+    error = zero
     while waiting:
         age = -heappop(waiting)
         number, derivative = numbers[age], derivatives.pop(age)
         if number.error is not ZERO:
-            error = error + abs(derivative) * number.error
+            error = error + derivative * number.error
             derivative = derivative * number.about_one
         for source, slope in number.links:
             source_age = source.age
@@ -130,23 +134,37 @@ def sweep_back(*results: Link) -> Sweep:
         if numbers[age].is_symbol:
             symbols.append((numbers[age], derivative))
         else:
-            error = error + abs(derivative) * numbers[age].error
+            error = error + derivative * numbers[age].error
     return Sweep(symbols, error)
 
 
 def enclosure(number: LinkedBall) -> Any:
     """A tight ball that holds all values of a number; remembered as its range."""
     if number.sweep is None and number.links:
-        number.sweep = sweep_back((number, ONE))
-        number.range = _common(number.range, _around(number.center, number.sweep))
+        _remember(number, sweep_back([(number, ONE)], ZERO))
     return number.range
+
+
+def enclose(numbers: Iterable[LinkedBall]) -> None:
+    """As `enclosure` for each number, in one sweep for all."""
+    open_ones = list({number.age: number for number in numbers if number.sweep is None and number.links}.values())
+    size = len(open_ones)
+    columns = [arb_mat(size, 1, [int(row == place) for row in range(size)]) for place in range(size)]
+    symbols, error = sweep_back(zip(open_ones, columns, strict=True), arb_mat(size, 1))
+    slopes: list[list[Link]] = [[] for _ in open_ones]
+    for symbol, column in symbols:
+        for links, slope in zip(slopes, column.entries(), strict=True):
+            if not slope.is_zero():
+                links.append((symbol, slope))
+    for number, links, of_roundings in zip(open_ones, slopes, error.entries(), strict=True):
+        _remember(number, Sweep(links, of_roundings))
 
 
 def difference(a: LinkedBall, b: LinkedBall) -> Any:
     """A tight ball that holds all values of a - b before rounding."""
     if not b.links and b.range.is_exact():
         return enclosure(a) - b.range
-    swept = sweep_back((a, ONE), (b, MINUS_ONE))
+    swept = sweep_back([(a, ONE), (b, MINUS_ONE)], ZERO)
     return _common(a.range - b.range, _around(a.center - b.center, swept))
 
 
@@ -157,7 +175,7 @@ def condensed(numbers: Sequence[LinkedBall]) -> list[LinkedBall]:
     for number in numbers:
         holds = enclosure(number)
         symbols, error = number.sweep or Sweep([], number.error)
-        box = error + number.center.rad()
+        box = abs(error) + number.center.rad()
         links: list[Link] = []
         for symbol, slope in symbols:
             if symbol not in renewed:
@@ -176,9 +194,14 @@ def condensed(numbers: Sequence[LinkedBall]) -> list[LinkedBall]:
 
 def new_symbol(like: LinkedBall) -> LinkedBall:
     """A number of which nothing is known but that it lies in [-1, 1]."""
-    symbol = like.__class__(ZERO, WITHIN_ONE, (), ONE)
+    symbol = like.__class__(ZERO, WITHIN_ONE, (), WITHIN_ONE)
     symbol.is_symbol = True
     return symbol
+
+
+def _remember(number: LinkedBall, swept: Sweep) -> None:
+    number.sweep = swept
+    number.range = _common(number.range, _around(number.center, swept))
 
 
 def _made(like: LinkedBall, center: Any, holds: Any, links: tuple[Link, ...]) -> LinkedBall:
@@ -188,7 +211,7 @@ def _made(like: LinkedBall, center: Any, holds: Any, links: tuple[Link, ...]) ->
 
 
 def _around(center: Any, swept: Sweep) -> Any:
-    radius = swept.error
+    radius = abs(swept.error)
     for _, slope in swept.symbols:
         radius = radius + abs(slope)
     if not (center.is_finite() and radius.is_finite()):
