@@ -1,0 +1,70 @@
+"""Feasible sets are proofs: what an arithmetic really computes must lie in the set of that arithmetic, everywhere.
+
+The tracer's own source runs on NumPy's float32 and on Python floats, operation by operation in the order that the balls
+follow. A bound that forgot a rounding would be broken by some of these 12,000 pixels; that this is so is tested, too.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from comparisons.error_model import ErrorModel
+from comparisons.feasible_set import feasible_set
+from comparisons.judgement import UNJUDGED, distances_in_tolerances
+from comparisons.output_model import OutputModel
+from reference_tracer.arithmetic import FLOAT, Arithmetic
+from reference_tracer.rendering import render
+from reference_tracer.variants import PLAIN_FORMS
+from scenes.library import library_names
+from tests.reference_tracer.small_scenes import library_scene
+
+WIDTH, HEIGHT = 20, 15
+
+FLOAT32 = Arithmetic(
+    "interpreted float32",
+    np.float32,
+    {
+        "sqrt": np.sqrt,
+        "tan": np.tan,
+        "exp": np.exp,
+        "floor": np.floor,
+        "inf": np.float32(math.inf),
+        "pi": np.float32(math.pi),
+    },
+)
+# exp, tan and powers may err by some units in the last place, of which 24 and 53 bits allow half a one.
+LIBRARY_BITS = 2
+
+
+def outside(name: str, arithmetic: Arithmetic, bits: int) -> tuple[int, int]:
+    """How many pixels lie outside their set, and how many cannot be judged."""
+    scene = library_scene(name, WIDTH, HEIGHT)
+    output = OutputModel("float32" if arithmetic is FLOAT32 else "float64")
+    feasible = feasible_set(scene, ErrorModel("", bits, output=output))
+    with np.errstate(all="ignore"):
+        image: Any = render(scene, arithmetic, PLAIN_FORMS)
+    distances = distances_in_tolerances(image.astype(np.float64), feasible)
+    return int((distances > 1).sum()), int((distances == UNJUDGED).sum())
+
+
+@pytest.mark.parametrize("name", library_names())
+def test_what_float32_computes_lies_in_its_feasible_set_at_every_pixel(name: str) -> None:
+    failing, unjudged = outside(name, FLOAT32, 24 - LIBRARY_BITS)
+    assert failing == 0
+    assert unjudged <= WIDTH * HEIGHT / 100
+
+
+@pytest.mark.parametrize("name", library_names())
+def test_what_python_floats_compute_lies_in_their_feasible_set_at_every_pixel(name: str) -> None:
+    assert outside(name, FLOAT, 53 - LIBRARY_BITS) == (0, 0)
+
+
+@pytest.mark.parametrize("name", ["concave-mirror", "glass-sphere", "coloured-mirrors", "plane-mirror"])
+def test_a_bound_for_more_bits_than_were_used_is_broken(name: str) -> None:
+    # Five bits too many: roundings rarely all go one way, so that a few bits of a right bound are not used.
+    failing, _ = outside(name, FLOAT32, 29)
+    assert failing > 0
