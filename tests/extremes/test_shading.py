@@ -40,6 +40,7 @@ def lights(kind: int) -> layout.SceneData:
     return scene_data({layout.LIGHT_FALLOFF: [kind], layout.LIGHT_FALLOFF_COEFFICIENTS: [(0.5, 0.25, 0.125)]})
 
 
+@pytest.mark.usefixtures("balls_of_200_bits")
 @given(DISTANCES)
 def test_attenuation_is_right_to_a_few_roundings_at_every_distance(distance: float) -> None:
     squared = distance * distance

@@ -208,12 +208,17 @@ COORDINATES = st.floats(-1e3, 1e3, width=32).filter(lambda x: x == 0 or abs(x) >
 VECTORS = st.tuples(COORDINATES, COORDINATES, COORDINATES)
 
 
-@given(VECTORS, VECTORS, VECTORS)
+@pytest.fixture
+def rounded(keep_precision: None) -> Any:  # noqa: ARG001 - the kernel sets the precision, which is to be put back
+    return make_kernel(rounded_ball_arithmetic(24, Decisions()), set(Feature))
+
+
+@with_fixture
+@given(a=VECTORS, b=VECTORS, c=VECTORS)
 def test_rounded_balls_hold_what_float32_makes_of_the_tracers_own_functions(
-    a: tuple[float, ...], b: tuple[float, ...], c: tuple[float, ...]
+    rounded: Any, a: tuple[float, ...], b: tuple[float, ...], c: tuple[float, ...]
 ) -> None:
     """Balls that merely have 24 bits fail this for one product of three numbers in ten."""
-    rounded = make_kernel(rounded_ball_arithmetic(24, Decisions()), set(Feature))
     single = numpy_kernel(np.float32)
     singles = [tuple(map(np.float32, vector)) for vector in (a, b, c)]
     balls = [tuple(map(arb, vector)) for vector in (a, b, c)]
