@@ -13,8 +13,17 @@ import numpy as np
 
 from comparisons.feasible_set import UNUSED
 from comparisons.images import write_image
-from comparisons.judgement import UNJUDGED, judge_first_hits, judge_image, largest_error, verdict_of, worst_pixel
+from comparisons.judgement import (
+    UNJUDGED,
+    capped_in_words,
+    judge_first_hits,
+    judge_image,
+    judgement_of,
+    largest_error,
+    verdict_of,
+)
 from comparisons.lobes import find_lobes
+from comparisons.pixel_evidence import PixelEvidence, pixel_evidence, write_pixel_evidence
 from comparisons.radiance_bound import radiance_bound
 from comparisons.renderer import RendererError
 from comparisons.results import Cell, Images, Judgement, StochasticTest, Verdict
@@ -91,14 +100,15 @@ def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence
     except RendererError as error:
         log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
         return Cell(**_names(place), version=place.version, verdict=Verdict.ERROR, reason=str(error), log=log)
-    judged = _judge_noisy if rendering.batch_means is not None else _judge_exact
-    judgement, test, verdict, reason, distances = judged(rendering, evidence)
+    judged = (_judge_exact if rendering.batch_means is None else _judge_noisy)(rendering, evidence)
+    verdict, reason = judged.verdict, judged.reason
     hits = None if rendering.first_hits is None else judge_first_hits(rendering.first_hits, evidence.feasible)
     if hits is not None and hits.failing:
         verdict = Verdict.FAIL
         reason = f"{hits.failing} first hits lie outside their feasible sets; {reason}"
     write_image(folder / "render.exr", rendering.image.astype(np.float32))
-    write_image(folder / "tolerances.exr", distances.astype(np.float32))
+    write_image(folder / "tolerances.exr", _in_float32(judged.distances))
+    write_pixel_evidence(folder / "feasible.exr", judged.pixels)
     return Cell(
         **_names(place),
         verdict=verdict,
@@ -106,13 +116,14 @@ def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence
         largest_error=largest_error(rendering.image, evidence.truth, evidence.feasible),
         seconds=rendering.seconds,
         version=place.version,
-        judgement=judgement,
-        stochastic=test,
+        judgement=judged.judgement,
+        stochastic=judged.test,
         first_hits=hits,
         images=Images(
             render=f"{place.folder}/render.exr",
             truth=f"cells/{place.scene}/{TRUTH_FILE}",
             tolerances=f"{place.folder}/tolerances.exr",
+            feasible=f"{place.folder}/feasible.exr",
             variance=_write_variance(rendering, place, folder),
         ),
         log=f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None,
@@ -125,6 +136,7 @@ def _names(place: CellPlace) -> dict[str, str]:
         "renderer": place.renderer,
         "integrator": place.integrator,
         "command": place.command,
+        "source": place.source,
         "key": place.key,
     }
 
@@ -134,16 +146,27 @@ def _check_size(rendering: Rendering, truth: NDArray[np.float64]) -> None:
         raise RendererError(f"expected an image of shape {truth.shape}, got {rendering.image.shape}")
 
 
-Judged = tuple[Judgement, StochasticTest | None, Verdict, str, "NDArray[np.float64]"]
+@dataclass(frozen=True)
+class _Judged:
+    """What came of an image."""
+
+    judgement: Judgement
+    test: StochasticTest | None
+    verdict: Verdict
+    reason: str
+    distances: NDArray[np.float64]
+    """Shape (height, width, 3)."""
+    pixels: PixelEvidence
 
 
-def _judge_exact(rendering: Rendering, evidence: Evidence) -> Judged:
-    judgement, distances = judge_image(rendering.image, evidence.truth, evidence.feasible)
-    verdict, reason = verdict_of(judgement)
-    return judgement, None, verdict, reason, distances
+def _judge_exact(rendering: Rendering, evidence: Evidence) -> _Judged:
+    feasible = evidence.feasible
+    judgement, nearest = judge_image(rendering.image, evidence.truth, feasible)
+    pixels = pixel_evidence(feasible.low, feasible.high, nearest.places, feasible.merged)
+    return _Judged(judgement, None, *verdict_of(judgement), nearest.distances, pixels)
 
 
-def _judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
+def _judge_noisy(rendering: Rendering, evidence: Evidence) -> _Judged:
     """The mean of many samples against the hull of each pixel's feasible set."""
     bound = radiance_bound(evidence.scene)
     assert bound is not None, "comparability.py lets no stochastic scene through without a bound"
@@ -159,24 +182,29 @@ def _judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
     first_hit_is_certain = (evidence.feasible.hit_primitives != UNUSED).sum(axis=2) == 1
     is_random = ~(lobes.sees_directly() & first_hit_is_certain)
     outcome = compare_means(low, high, rendering.batch_means, rendering.samples, most, lobes, is_random)
-    p_values = outcome.p_values.min(axis=2)
     # Exponents of these probabilities grow with the square of the distance, so that this is a distance, too.
     with np.errstate(divide="ignore"):
-        distances = np.where(unjudged, UNJUDGED, np.sqrt(np.log(p_values) / np.log(SIGNIFICANCE)))
-    judgement = Judgement(
-        pixels=unjudged.size,
-        failing=int((p_values < SIGNIFICANCE).sum()),
-        unjudged=int(unjudged.sum()),
-        ambiguous=int((evidence.feasible.outcomes > 1).sum()),
-        worst=worst_pixel(rendering.image, evidence.truth, evidence.feasible, distances),
-    )
+        distances = np.sqrt(np.log(outcome.p_values) / np.log(SIGNIFICANCE))
+    within_range = unjudged & (outcome.p_values >= SIGNIFICANCE).all(axis=2)
+    distances = np.where(within_range[..., np.newaxis], UNJUDGED, distances)
+    judgement = judgement_of(distances.max(axis=2), rendering.image, evidence.truth, evidence.feasible)
+    one_box = np.zeros(unjudged.shape, dtype=np.int64)
+    pixels = pixel_evidence(low[:, :, np.newaxis], high[:, :, np.newaxis], one_box, evidence.feasible.merged)
     if unjudged.all():
-        return judgement, outcome.test, *verdict_of(judgement), distances
+        return _Judged(judgement, outcome.test, *verdict_of(judgement), distances, pixels)
     verdict = Verdict.PASS if outcome.passes else Verdict.FAIL
     probability = f"the least likely mean has p = {outcome.test.smallest_p_value:.2g} after correction"
     limit = f"against a significance of {SIGNIFICANCE:g}"
-    reason = f"{probability}, {limit}, with {rendering.samples} samples a pixel"
-    return judgement, outcome.test, verdict, reason, distances
+    reason = f"{probability}, {limit}, with {rendering.samples} samples a pixel{capped_in_words(judgement)}"
+    return _Judged(judgement, outcome.test, verdict, reason, distances, pixels)
+
+
+def _in_float32(distances: NDArray[np.float64]) -> NDArray[np.float32]:
+    """The distances, those above 1 still above it."""
+    with np.errstate(over="ignore"):  # infinitely far, as far as a reader can tell
+        rounded = distances.astype(np.float32)
+    just_outside = np.nextafter(np.float32(1), np.float32(2))
+    return np.where(distances > 1, np.maximum(rounded, just_outside), rounded)
 
 
 def _write_variance(rendering: Rendering, place: CellPlace, folder: Path) -> str | None:

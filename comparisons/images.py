@@ -12,7 +12,7 @@ import OpenImageIO
 from scenes.camera import LARGEST_SIDE
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -62,13 +62,28 @@ def read_image(path: Path) -> NDArray[np.float32]:
     Raises ImageError for a file that is missing, damaged, too large, or has other channels. Pixels that are not finite
     are left for the caller to judge.
     """
+    one_or_three = "one channel or R, G and B"
+    pixels, names = read_channels(path, lambda names: len(names) == 1 or names == CHANNEL_NAMES[3], one_or_three)
+    return pixels[..., 0] if len(names) == 1 else pixels
+
+
+def read_channels(
+    path: Path, are_right: Callable[[tuple[str, ...]], bool], expected: str
+) -> tuple[NDArray[np.float32], tuple[str, ...]]:
+    """The pixels of a one-part OpenEXR file, shape (height, width, channels), and the names of its channels.
+
+    Raises ImageError for a file that is missing, damaged, too large, or whose channels' names are not right; `expected`
+    tells then which would be.
+    """
     if not path.is_file():
         raise ImageError(f"{path}: there is no such image file")
     source = OpenImageIO.ImageInput.open(str(path))
     if source is None:
         raise ImageError(f"{path}: expected an OpenEXR image, but it cannot be opened ({_text(OpenImageIO.geterror)})")
     try:
-        _check_layout(path, source)
+        names = _names_in_header(path, source)
+        if not are_right(names):
+            raise ImageError(f"{path}: expected {expected}, found {len(names)}: {', '.join(names)}")
         pixels = source.read_image("float")
         if pixels is None or source.has_error:
             raise ImageError(f"{path}: the image is damaged ({_text(source.geterror)})")
@@ -76,10 +91,10 @@ def read_image(path: Path) -> NDArray[np.float32]:
         raise ImageError(f"{path}: the image's header is damaged, a name in it is not UTF-8") from error
     finally:
         source.close()
-    return np.asarray(pixels[..., 0] if pixels.shape[-1] == 1 else pixels, dtype=np.float32)
+    return np.asarray(pixels, dtype=np.float32), names
 
 
-def _check_layout(path: Path, source: OpenImageIO.ImageInput) -> None:
+def _names_in_header(path: Path, source: OpenImageIO.ImageInput) -> tuple[str, ...]:
     """Look at the header before any pixel is read, since a damaged one may ask for all the memory there is."""
     if source.format_name() != "openexr":
         raise ImageError(f"{path}: expected an OpenEXR image with linear values, found {source.format_name()}")
@@ -89,9 +104,7 @@ def _check_layout(path: Path, source: OpenImageIO.ImageInput) -> None:
     display = (spec.full_x, spec.full_y, spec.full_width, spec.full_height)
     if (spec.x, spec.y, spec.width, spec.height) != display:
         raise ImageError(f"{path}: expected a data window equal to the display window (an image that is not cropped)")
-    names = tuple(spec.channelnames)
-    if len(names) != 1 and names != CHANNEL_NAMES[3]:
-        raise ImageError(f"{path}: expected one channel or R, G and B, found {len(names)}: {', '.join(names)}")
+    return tuple(str(name) for name in spec.channelnames)
 
 
 def _text(message: object) -> str:

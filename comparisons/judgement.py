@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,30 +20,59 @@ UNJUDGED = -1.0
 """What a pixel that cannot be judged has in place of a distance in tolerances."""
 
 
-def distances_in_tolerances(image: ArrayLike, feasible: FeasibleSet) -> NDArray[np.float64]:
-    """Each pixel's distance from the middle of its nearest outcome, in half widths of that outcome's box.
+@dataclass(frozen=True)
+class NearestOutcomes:
+    """Of each pixel the outcome that its value lies in or nearest to."""
 
-    Shape (height, width); up to 1 the pixel is feasible; infinity for a value that is not a number, or that differs
-    where there is no tolerance at all; -1 where the pixel cannot be judged.
+    places: NDArray[np.int64]
+    """Its place among the pixel's outcomes, shape (height, width)."""
+    distances: NDArray[np.float64]
+    """Each channel's distance from the middle of its box in half widths of the box, shape (height, width, 3).
+
+    Up to 1 the value is in the box; infinity for a value that is not a number, or that differs where there is no
+    tolerance at all; -1 where the pixel cannot be judged.
     """
-    distances = _box_distances(np.asarray(image, dtype=np.float64), feasible.low, feasible.high)
-    nearest: NDArray[np.float64] = np.where(feasible.outcomes == 0, UNJUDGED, distances.min(axis=2))
-    return nearest
+
+    def in_tolerances(self) -> NDArray[np.float64]:
+        """Each pixel's largest distance, shape (height, width): up to 1 the pixel is feasible."""
+        worst: NDArray[np.float64] = self.distances.max(axis=2)
+        return worst
+
+
+def nearest_outcomes(image: ArrayLike, feasible: FeasibleSet) -> NearestOutcomes:
+    """Where the values of an image of shape (height, width, 3) lie in their feasible sets."""
+    distances = _channel_distances(np.asarray(image, dtype=np.float64), feasible.low, feasible.high)
+    places = distances.max(axis=3).argmin(axis=2)
+    nearest = np.take_along_axis(distances, places[:, :, np.newaxis, np.newaxis], axis=2)[:, :, 0]
+    unjudged = (feasible.outcomes == 0)[..., np.newaxis]
+    return NearestOutcomes(places, np.where(unjudged, UNJUDGED, nearest))
+
+
+def distances_in_tolerances(image: ArrayLike, feasible: FeasibleSet) -> NDArray[np.float64]:
+    """Each pixel's distance from its nearest outcome, shape (height, width): up to 1 it is feasible, -1 unjudged."""
+    return nearest_outcomes(image, feasible).in_tolerances()
 
 
 def judge_image(
     image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet
-) -> tuple[Judgement, NDArray[np.float64]]:
-    """The counts and the worst pixel, and the map of distances in tolerances."""
-    distances = distances_in_tolerances(image, feasible)
-    judgement = Judgement(
+) -> tuple[Judgement, NearestOutcomes]:
+    """The counts and the worst pixel, and where each pixel's value lies."""
+    nearest = nearest_outcomes(image, feasible)
+    return judgement_of(nearest.in_tolerances(), image, truth, feasible), nearest
+
+
+def judgement_of(
+    distances: NDArray[np.float64], image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet
+) -> Judgement:
+    """The counts and the worst pixel of an image whose pixels have these distances, shape (height, width)."""
+    return Judgement(
         pixels=distances.size,
         failing=int((distances > 1).sum()),
-        unjudged=int((distances == UNJUDGED).sum()),
+        unjudged=int((feasible.outcomes == 0).sum()),
+        capped=int(feasible.merged.sum()),
         ambiguous=int((feasible.outcomes > 1).sum()),
         worst=worst_pixel(image, truth, feasible, distances),
     )
-    return judgement, distances
 
 
 def verdict_of(judgement: Judgement) -> tuple[Verdict, str]:
@@ -50,9 +80,18 @@ def verdict_of(judgement: Judgement) -> tuple[Verdict, str]:
     judged = judgement.pixels - judgement.unjudged
     if judged == 0:
         return Verdict.FAIL, "no pixel could be judged: this arithmetic leaves everything open"
+    pixels = "judged pixels" if judgement.unjudged else "pixels"
+    aside = capped_in_words(judgement)
     if judgement.failing:
-        return Verdict.FAIL, f"{judgement.failing} of {judged} judged pixels lie outside their feasible sets"
-    return Verdict.PASS, f"all {judged} judged pixels lie in their feasible sets"
+        return Verdict.FAIL, f"{judgement.failing} of {judged} {pixels} lie outside their feasible sets{aside}"
+    return Verdict.PASS, f"all {judged} {pixels} lie in their feasible sets{aside}"
+
+
+def capped_in_words(judgement: Judgement) -> str:
+    """The counts of pixels that are not judged by each of their outcomes, in parentheses; nothing if there are none."""
+    counts = {"in a box of several outcomes": judgement.capped, "not judged": judgement.unjudged}
+    words = [f"{count} {what}" for what, count in counts.items() if count]
+    return f" ({', '.join(words)})" if words else ""
 
 
 def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet) -> float:
@@ -98,7 +137,15 @@ def judge_first_hits(hits: FirstHits, feasible: FeasibleSet) -> FirstHitComparis
 def _box_distances(
     values: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Distance of values (h, w, c) from boxes (h, w, k, c) in half widths: (h, w, k), infinity for unused boxes.
+    """Distance of values (h, w, c) from boxes (h, w, k, c) in the worst channel: (h, w, k)."""
+    worst: NDArray[np.float64] = _channel_distances(values, low, high).max(axis=3)
+    return worst
+
+
+def _channel_distances(
+    values: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Distance of values (h, w, c) from boxes (h, w, k, c) in half widths: (h, w, k, c), infinity for unused boxes.
 
     At most 1 exactly where the value is in the box, also where that ends in infinity, as where half floats overflow.
     """
@@ -111,8 +158,8 @@ def _box_distances(
     beyond_one = np.nextafter(1.0, 2.0)
     judged = np.where(inside, np.fmin(in_widths, 1.0), np.fmax(in_widths, beyond_one))
     undefined = np.isnan(low) | np.isnan(high) | np.isnan(value)
-    worst: NDArray[np.float64] = np.where(undefined, np.inf, judged).max(axis=3)
-    return worst
+    distances: NDArray[np.float64] = np.where(undefined, np.inf, judged)
+    return distances
 
 
 def _filled(distances: NDArray[np.float64]) -> NDArray[np.float64]:

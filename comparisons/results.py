@@ -55,9 +55,10 @@ class WorstPixel(Record):
     value: tuple[float, float, float]
     truth: tuple[float, float, float]
     low: tuple[float, float, float]
+    """Of the nearest outcome."""
     high: tuple[float, float, float]
     tolerances: float
-    """Distance from the truth in units of the tolerance: above 1 the pixel fails."""
+    """Distance from the middle of the nearest outcome in units of the tolerance: above 1 the pixel fails."""
 
 
 class Judgement(Record):
@@ -66,7 +67,9 @@ class Judgement(Record):
     pixels: int
     failing: int
     unjudged: int
-    """Pixels whose feasible set was too large to enumerate."""
+    """Pixels of which the renderer's arithmetic leaves everything open."""
+    capped: int
+    """Judged pixels with more outcomes than are told apart: one box holds several."""
     ambiguous: int
     """Pixels where the renderer's arithmetic allows more than one outcome (edges, shadow boundaries)."""
     worst: WorstPixel | None = None
@@ -102,7 +105,9 @@ class Images(Record):
     render: str
     truth: str
     tolerances: str
-    """One channel: distance from the truth in units of the pixel's tolerance; -1 where unjudged."""
+    """Each channel's distance from the middle of the nearest outcome, in units of the tolerance; -1 where unjudged."""
+    feasible: str
+    """What each pixel is held to: channels and their meaning in pixel_evidence.py."""
     variance: str | None = None
 
 
@@ -128,6 +133,8 @@ class Cell(Record):
     """Path of the renderer's log, relative to the results directory."""
     command: str
     """The command that repeats this cell."""
+    source: str | None = None
+    """What names the scene on the command line: its library name or its path."""
     key: str = ""
     """Hash of all the cell depends on; a cell with the same key need not be run again."""
 

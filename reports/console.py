@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from comparisons.results import Verdict
-from reports.wording import WORDINGS, cells_by_place, columns, number, printable, summary, verdict_counts
+from reports.wording import WORDINGS, capped, cells_by_place, columns, number, printable, summary, verdict_counts
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -41,6 +41,9 @@ def print_matrix(results: Results, console: Console, report: Path | None = None)
         for cell in results.cells:
             _print_line(console, _plain(cell))
     _print_line(console, summary(results))
+    capped_line = capped(results)
+    if capped_line is not None:
+        _print_line(console, capped_line)
     if report is not None:
         _print_line(console, f"Report: {report}")
 

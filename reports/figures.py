@@ -157,11 +157,11 @@ def _difference(source: Source) -> Figure:
 
 
 def _error_map(source: Source) -> Figure:
-    tolerances = read_values(source.directory, source.images.tolerances)
+    tolerances = read_colours(source.directory, source.images.tolerances).max(axis=-1)
     height, width = tolerances.shape
     uri = data_uri(pictures.tolerance_picture(tolerances))
     alt = f"Error map of {source.place} in units of the tolerance"
-    caption = "error in units of the pixel’s tolerance"
+    caption = "error in units of the pixel’s tolerance, the channel that is farthest"
     return Figure("Error map", caption, alt, width, height, uri=uri, legend="tolerances", low="0", high="1")
 
 

@@ -1,11 +1,16 @@
-"""The report as one self-contained HTML page, built from a results directory alone."""
+"""The report as an HTML page, built from a results directory alone.
+
+The page is complete by itself; the values of single pixels lie in a folder beside it.
+"""
 
 from __future__ import annotations
 
 import base64
 import hashlib
-import os
+import shutil
 from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
@@ -15,10 +20,9 @@ from comparisons.results import Verdict
 from reports import pictures, wording
 from reports.figures import Album, Figure, SharedPicture, cell_figures, data_uri
 from reports.loading import ReportError, load_results, read_log
+from reports.pixel_scripts import FOLDER, PixelView, write_pixel_script
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from comparisons.results import Cell, Results, SceneRecord
 
 __all__ = ["REPORT_FILE", "ReportError", "write_html_report"]
@@ -33,6 +37,8 @@ class CellView:
     record: Cell
     anchor: str
     figures: list[Figure]
+    pixels: PixelView | None
+    pixel_problem: str | None
     log: str | None
     log_problem: str | None
 
@@ -53,26 +59,29 @@ class SceneView:
 
 
 def write_html_report(directory: Path) -> Path:
-    """Write `report.html` into the results directory, whole or not at all, and return its path.
+    """Write `report.html` and the folder `pixels` into the results directory, and return the page's path.
 
-    Raises ReportError, in one sentence, where the results are missing or broken or the page cannot be written; a
-    missing image or log is told in its place on the page.
+    Each is written whole or not at all. Raises ReportError, in one sentence, where the results are missing or broken or
+    the page cannot be written; a missing image or log is told in its place on the page.
     """
-    page = _render_page(directory, load_results(directory))
+    results = load_results(directory)
     path = directory / REPORT_FILE
-    partial = directory / f".{REPORT_FILE}.{os.getpid()}"
     try:
-        partial.write_text(page, encoding="utf-8")
-        partial.replace(path)
+        with TemporaryDirectory(prefix=".report-", dir=directory) as scratch:
+            pixels = Path(scratch) / FOLDER
+            page = Path(scratch) / REPORT_FILE
+            page.write_text(_render_page(directory, results, pixels), encoding="utf-8")
+            page.replace(path)
+            shutil.rmtree(directory / FOLDER, ignore_errors=True)
+            if pixels.exists():
+                pixels.replace(directory / FOLDER)
     except OSError as error:
         raise ReportError(f"{path} cannot be written: {error.strerror}.") from error
-    finally:
-        partial.unlink(missing_ok=True)
     return path
 
 
-def _render_page(directory: Path, results: Results) -> str:
-    """The page as text."""
+def _render_page(directory: Path, results: Results, pixels: Path) -> str:
+    """The page as text; the values of the pixels are written into the folder `pixels`."""
     loader = PackageLoader("reports")
     environment = Environment(
         loader=loader,
@@ -84,13 +93,16 @@ def _render_page(directory: Path, results: Results) -> str:
     )
     environment.filters["number"] = wording.number
     environment.filters["exact"] = wording.exact
-    script, style = (loader.get_source(environment, name)[0] for name in ("report.js", "report.css"))
+    names = ("report.js", "pixels.js", "report.css")
+    report_script, pixels_script, style = (loader.get_source(environment, name)[0] for name in names)
+    script = f"{report_script}\n{pixels_script}"
     album = Album()
-    scenes = _scene_views(directory, results, album)
+    scenes = _scene_views(directory, results, album, pixels)
     return environment.get_template("report.html.jinja").render(
         results=results,
         headline=wording.headline(results),
         summary=wording.summary(results),
+        capped=wording.capped(results),
         counts=wording.verdict_counts(results),
         wordings=wording.WORDINGS,
         verdicts=Verdict,
@@ -108,7 +120,7 @@ def _render_page(directory: Path, results: Results) -> str:
     )
 
 
-def _scene_views(directory: Path, results: Results, album: Album) -> list[SceneView]:
+def _scene_views(directory: Path, results: Results, album: Album, pixels: Path) -> list[SceneView]:
     """The rows of the matrix."""
     cells = wording.cells_by_place(results)
     views = []
@@ -116,20 +128,25 @@ def _scene_views(directory: Path, results: Results, album: Album) -> list[SceneV
         view = SceneView(scene, _anchor("scene", scene.name))
         for renderer, integrator in wording.columns(results):
             cell = cells.get((scene.name, renderer, integrator))
-            view.cells.append(None if cell is None else _cell_view(directory, cell, album))
+            view.cells.append(None if cell is None else _cell_view(directory, cell, album, pixels))
         views.append(view)
     return views
 
 
-def _cell_view(directory: Path, cell: Cell, album: Album) -> CellView:
-    log, problem = None, None
+def _cell_view(directory: Path, cell: Cell, album: Album, pixels: Path) -> CellView:
+    anchor = _anchor("cell", cell.scene, cell.renderer, cell.integrator)
+    log, log_problem, view, pixel_problem = None, None, None, None
     if cell.log is not None:
         try:
             log = read_log(directory, cell.log)
         except ReportError as error:
-            problem = str(error)
-    anchor = _anchor("cell", cell.scene, cell.renderer, cell.integrator)
-    return CellView(cell, anchor, cell_figures(directory, cell, album), log, problem)
+            log_problem = str(error)
+    if cell.images is not None:
+        try:
+            view = write_pixel_script(directory, cell, cell.images, anchor, pixels)
+        except ReportError as error:
+            pixel_problem = f"Single pixels cannot be shown. {error}"
+    return CellView(cell, anchor, cell_figures(directory, cell, album), view, pixel_problem, log, log_problem)
 
 
 def _anchor(*parts: str) -> str:

@@ -11,11 +11,13 @@ from pydantic import ValidationError
 from rich.text import Text
 
 from comparisons.images import ImageError, read_image
+from comparisons.pixel_evidence import read_pixel_evidence
 from comparisons.results import RESULTS_FILE, SCHEMA_VERSION, Results
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from comparisons.pixel_evidence import PixelEvidence
     from comparisons.renderer import Image
 
 LOG_LINES = 40
@@ -100,10 +102,24 @@ def read_values(directory: Path, relative: str) -> Image:
     return _read(directory, relative, 2)
 
 
-def _read(directory: Path, relative: str, dimensions: int) -> Image:
+def read_evidence(directory: Path, relative: str) -> PixelEvidence:
+    """What the pixels of a cell are held to. Raises ReportError where it is missing or broken."""
+    path = _existing(directory, relative)
+    try:
+        return read_pixel_evidence(path)
+    except ImageError as error:
+        raise ReportError(f"The image {error}.") from error
+
+
+def _existing(directory: Path, relative: str) -> Path:
     path = _inside(directory, relative)
     if not path.is_file():
         raise ReportError(f"The image {relative} is missing.")
+    return path
+
+
+def _read(directory: Path, relative: str, dimensions: int) -> Image:
+    path = _existing(directory, relative)
     try:
         image = read_image(path)
     except ImageError as error:

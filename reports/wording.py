@@ -63,6 +63,22 @@ def summary(results: Results) -> str:
     return f"{total} {plural('cell', total)}: {counts}."
 
 
+def capped(results: Results) -> str | None:
+    """How many pixels of all judged cells are not judged by each of their outcomes; None where no cell was judged."""
+    judgements = [cell.judgement for cell in results.cells if cell.judgement is not None]
+    if not judgements:
+        return None
+    pixels = sum(judgement.pixels for judgement in judgements)
+    unjudged = sum(judgement.unjudged for judgement in judgements)
+    merged = sum(judgement.capped for judgement in judgements)
+    of_all = f"of {pixels:,} pixels in {len(judgements)} judged {plural('cell', len(judgements))}"
+    if unjudged + merged == 0:
+        return f"Capped pixels: none {of_all}."
+    share = number(100 * (unjudged + merged) / pixels)
+    kinds = f"{merged:,} in a box of several outcomes, {unjudged:,} not judged"
+    return f"Capped pixels: {unjudged + merged:,} {of_all} ({share} %): {kinds}."
+
+
 def columns(results: Results) -> list[tuple[str, str]]:
     """The matrix's columns (renderer, integrator) that have a cell, in the order of the renderers' records."""
     present = dict.fromkeys((cell.renderer, cell.integrator) for cell in results.cells)

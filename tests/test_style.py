@@ -17,6 +17,7 @@ ROOT = Path(__file__).parent.parent
 RECORDS = {
     "comparisons.results",
     "comparisons.images",
+    "comparisons.pixel_evidence",
     "comparisons.renderer.Image",
     "reference_tracer.explanation_record",
 }

@@ -1,6 +1,6 @@
 "use strict";
 
-// The page is complete without this script; it adds the filters and the copy buttons.
+// The page is complete without this script; it adds the filters, the copy buttons and the single pixels.
 
 const boxes = [...document.querySelectorAll(".verdicts input")];
 const cells = [...document.querySelectorAll("[data-verdict]")];
@@ -47,7 +47,7 @@ async function copy(code, button) {
   }
 }
 
-for (const code of document.querySelectorAll("[data-copy] code")) {
+function addCopyButton(code) {
   const button = document.createElement("button");
   button.type = "button";
   button.textContent = "Copy";
@@ -57,4 +57,8 @@ for (const code of document.querySelectorAll("[data-copy] code")) {
     copy(code, button);
   });
   code.closest("[data-copy]").append(button);
+}
+
+for (const code of document.querySelectorAll("[data-copy] code")) {
+  addCopyButton(code);
 }

@@ -12,6 +12,7 @@ from comparisons.cell import CELL_FILE, CellPlace, Evidence, run_cell
 from comparisons.feasible_set import feasible_set
 from comparisons.images import read_image
 from comparisons.lobes import find_lobes
+from comparisons.pixel_evidence import pixel_evidence, read_pixel_evidence
 from comparisons.renderer import FirstHits, Rays, RendererError, Rendering
 from comparisons.results import Cell, Verdict
 from reference_tracer.arithmetic import FLOAT
@@ -61,12 +62,19 @@ def test_a_right_image_passes_and_everything_lies_in_the_cells_folder(tmp_path: 
     assert cell.largest_error is not None
     assert cell.largest_error <= 2.0**-25  # half an ulp of a float32 below 1
     folder = "cells/small/pretender-whitted"
-    assert files(tmp_path) == {f"{folder}/{name}" for name in (CELL_FILE, "log.txt", "render.exr", "tolerances.exr")}
+    names = (CELL_FILE, "log.txt", "render.exr", "tolerances.exr", "feasible.exr")
+    assert files(tmp_path) == {f"{folder}/{name}" for name in names}
     assert Cell.model_validate_json((tmp_path / folder / CELL_FILE).read_text()) == cell
     assert cell.images is not None
     np.testing.assert_array_equal(read_image(tmp_path / cell.images.render), evidence().truth.astype(np.float32))
     assert read_image(tmp_path / cell.images.tolerances).max() <= 1
+    kept = read_pixel_evidence(tmp_path / cell.images.feasible)
+    exact = evidence().feasible
+    expected = pixel_evidence(exact.low, exact.high, np.zeros((4, 6), dtype=np.int64), exact.merged)
+    np.testing.assert_array_equal(kept.low, expected.low)
+    np.testing.assert_array_equal(kept.high, expected.high)
     assert cell.images.truth == "cells/small/truth.exr"
+    assert cell.source == "small"
     assert (tmp_path / folder).stat().st_mode & 0o777 == 0o755  # others may read it
 
 
@@ -119,6 +127,36 @@ def test_one_wrong_pixel_fails(tmp_path: Path) -> None:
     assert cell.judgement is not None
     assert cell.judgement.worst is not None
     assert (cell.judgement.failing, cell.judgement.worst.x, cell.judgement.worst.y) == (1, 2, 1)
+    assert cell.images is not None
+    outside = read_image(tmp_path / cell.images.tolerances) > 1
+    assert np.argwhere(outside).tolist() == [[1, 2, 1]]  # of the channels, only the wrong one
+
+
+def test_a_value_that_is_barely_outside_is_still_outside_in_the_map(tmp_path: Path) -> None:
+    whole = evidence()
+    size = (4, 6, 1, 3)
+    feasible = replace(whole.feasible, low=np.full(size, -0.5), high=np.full(size, np.nextafter(0.5, 0)))
+    barely = replace(whole, feasible=feasible)
+    image = np.full((4, 6, 3), 0.5, dtype=np.float32)
+    cell = run_cell(PLACE, Pretender(lambda *_: Rendering(image, 0.0)), 1, barely, tmp_path)
+    assert cell.verdict == Verdict.FAIL
+    assert cell.images is not None
+    assert (read_image(tmp_path / cell.images.tolerances) > 1).all()
+
+
+def test_capped_pixels_are_counted_in_the_reason_and_in_the_kept_evidence(tmp_path: Path) -> None:
+    merged = np.zeros((4, 6), dtype=bool)
+    merged[1, 2] = merged[3, 0] = True
+    for kind, answer in {"lit": truthful, "glass": noisy(0.0, "glass")}.items():
+        whole = evidence(kind)
+        capped = replace(whole, feasible=replace(whole.feasible, merged=merged))
+        cell = run_cell(PLACE, Pretender(answer), 1, capped, tmp_path)
+        assert cell.verdict == Verdict.PASS
+        assert cell.reason.endswith("(2 in a box of several outcomes)")
+        assert cell.judgement is not None
+        assert cell.judgement.capped == 2
+        assert cell.images is not None
+        np.testing.assert_array_equal(read_pixel_evidence(tmp_path / cell.images.feasible).merged, merged)
 
 
 def test_wrong_first_hits_fail_a_right_image(tmp_path: Path) -> None:
@@ -179,6 +217,11 @@ def test_a_noisy_mean_is_tested_and_its_variance_kept(tmp_path: Path) -> None:
     assert right.images is not None
     assert right.images.variance is not None
     assert read_image(tmp_path / right.images.variance).max() > 0
+    kept = read_pixel_evidence(tmp_path / right.images.feasible)
+    low, high = evidence("glass").feasible.hull()
+    assert kept.low.shape == (4, 6, 1, 3)  # one interval, in which the expectation lies
+    np.testing.assert_allclose(kept.low[:, :, 0], np.maximum(low, 0), atol=1e-6)
+    np.testing.assert_allclose(kept.high[:, :, 0], high, atol=1e-6)
     wrong = cell_of(tmp_path, noisy(-0.1, "glass"), "glass")
     assert wrong.verdict == Verdict.FAIL
     assert wrong.judgement is not None

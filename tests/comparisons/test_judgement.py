@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,7 @@ from comparisons.judgement import (
     judge_first_hits,
     judge_image,
     largest_error,
+    nearest_outcomes,
     verdict_of,
 )
 from comparisons.renderer import FirstHits
@@ -101,8 +103,8 @@ def test_without_any_tolerance_only_the_value_itself_is_feasible() -> None:
 
 def test_counts_are_of_failing_unjudged_and_ambiguous_pixels() -> None:
     feasible = boxes([(0.0, 1.0)], [(0.0, 1.0)], [], [(0.0, 1.0), (2.0, 4.0)], [(0.0, 1.0), (2.0, 4.0)])
-    judgement, distances = judge_image(row(0.5, 1.5, 9.0, 5.0, 2.5), truth(0.5, 0.5, 0.5, 0.5, 0.5), feasible)
-    assert distances.tolist() == [[0, 2, UNJUDGED, 2, 0.5]]
+    judgement, nearest = judge_image(row(0.5, 1.5, 9.0, 5.0, 2.5), truth(0.5, 0.5, 0.5, 0.5, 0.5), feasible)
+    assert nearest.in_tolerances().tolist() == [[0, 2, UNJUDGED, 2, 0.5]]
     assert (judgement.pixels, judgement.failing, judgement.unjudged, judgement.ambiguous) == (5, 2, 1, 2)
     verdict, reason = verdict_of(judgement)
     assert verdict == Verdict.FAIL
@@ -111,15 +113,41 @@ def test_counts_are_of_failing_unjudged_and_ambiguous_pixels() -> None:
 
 def test_an_image_passes_if_each_judged_pixel_is_feasible() -> None:
     judgement, _ = judge_image(row(0.5, 9.0), truth(0.5, 0.5), boxes([(0.0, 1.0)], []))
-    assert verdict_of(judgement) == (Verdict.PASS, "all 1 judged pixels lie in their feasible sets")
+    reason = "all 1 judged pixels lie in their feasible sets (1 not judged)"
+    assert verdict_of(judgement) == (Verdict.PASS, reason)
+
+
+def test_a_pixel_whose_box_holds_several_outcomes_is_counted_and_told() -> None:
+    feasible = replace(boxes(*[[(0.0, 1.0)]] * 3), merged=np.array([[False, True, True]]))
+    image = row(0.5, 0.5, 0.5)
+    judgement, _ = judge_image(image, image.astype(np.float64), feasible)
+    assert (judgement.capped, judgement.unjudged) == (2, 0)
+    reason = "all 3 pixels lie in their feasible sets (2 in a box of several outcomes)"
+    assert verdict_of(judgement) == (Verdict.PASS, reason)
+    failing, _ = judge_image(row(0.5, 9.0, 0.5), image.astype(np.float64), feasible)
+    reason = "1 of 3 pixels lie outside their feasible sets (2 in a box of several outcomes)"
+    assert verdict_of(failing) == (Verdict.FAIL, reason)
+
+
+def test_nothing_is_said_of_capped_pixels_where_there_are_none() -> None:
+    judgement, _ = judge_image(row(0.5), truth(0.5), boxes([(0.0, 1.0)]))
+    assert judgement.capped == 0
+    assert verdict_of(judgement) == (Verdict.PASS, "all 1 pixels lie in their feasible sets")
+
+
+def test_each_channel_has_its_distance_from_the_one_nearest_outcome() -> None:
+    feasible = boxes([(0.25, 0.75), (4.0, 6.0)], [])
+    nearest = nearest_outcomes(row((3.0, 5.0, 7.5), 0.5), feasible)
+    assert nearest.places[0, 0] == 1
+    assert nearest.distances.tolist() == [[[2, 0, 2.5], [UNJUDGED] * 3]]
 
 
 def test_an_image_of_which_nothing_can_be_judged_fails() -> None:
-    judgement, distances = judge_image(row(0.5, 0.5), truth(0.5, 0.5), boxes([], []))
+    judgement, nearest = judge_image(row(0.5, 0.5), truth(0.5, 0.5), boxes([], []))
     verdict, reason = verdict_of(judgement)
     assert verdict == Verdict.FAIL
     assert "no pixel could be judged" in reason
-    assert (distances == UNJUDGED).all()
+    assert (nearest.distances == UNJUDGED).all()
     assert judgement.worst is not None
     assert judgement.worst.tolerances == UNJUDGED
 

@@ -62,7 +62,7 @@ def test_what_is_no_number_survives(tmp_path: Path) -> None:
         high=(1,) * 3,
         tolerances=math.inf,
     )
-    judgement = Judgement(pixels=1, failing=1, unjudged=0, ambiguous=0, worst=worst)
+    judgement = Judgement(pixels=1, failing=1, unjudged=0, capped=0, ambiguous=0, worst=worst)
     written(tmp_path, [cell("a", verdict=Verdict.FAIL, judgement=judgement, largest_error=math.nan)], [scene("a")])
     (back,) = read(tmp_path).cells
     assert back.largest_error is not None
@@ -139,12 +139,13 @@ def with_images(folder: Path, name: str, offset: float) -> Cell:
         render=f"cells/{name}/pretender-whitted/render.exr",
         truth=f"cells/{name}/truth.exr",
         tolerances=f"cells/{name}/pretender-whitted/tolerances.exr",
+        feasible=f"cells/{name}/pretender-whitted/feasible.exr",
     )
     return cell(name, images=images)
 
 
 def test_metrics_are_filled_in_and_kept_with_the_cell(tmp_path: Path) -> None:
-    lost = cell("lost", images=Images(render="no.exr", truth="no.exr", tolerances="no.exr"))
+    lost = cell("lost", images=Images(render="no.exr", truth="no.exr", tolerances="no.exr", feasible="no.exr"))
     cells = [
         with_images(tmp_path, "same", 0.0),
         cell("error", verdict=Verdict.ERROR),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.images import write_image
+from comparisons.pixel_evidence import PixelEvidence, write_pixel_evidence
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -19,6 +20,8 @@ ODD_NAME = "odd name/<b>%20ü"
 SIDE = 64
 FAILING_PIXEL = (20, 12)
 """x, y"""
+AMBIGUOUS_PIXEL = (33, 50)
+CAPPED_PIXEL = (34, 50)
 
 Names = tuple[str, str, str]
 """Scene, renderer, integrator."""
@@ -138,9 +141,13 @@ def _evidence(directory: Path, names: Names, truth: Image, render: Image, tolera
     folder = _folder(names)
     (directory / folder).mkdir(parents=True, exist_ok=True)
     paths = {}
-    for kind, image in {"truth": truth, "render": render, "tolerances": tolerances}.items():
+    of_channels = tolerances[..., None] * np.array([0.5, 1, 0.25]) if (tolerances >= 0).all() else tolerances[..., None]
+    distances = np.broadcast_to(of_channels, truth.shape)
+    for kind, image in {"truth": truth, "render": render, "tolerances": distances}.items():
         paths[kind] = f"{folder}/{kind}.exr"
         write_image(directory / paths[kind], np.ascontiguousarray(image, dtype=np.float32))
+    paths["feasible"] = f"{folder}/feasible.exr"
+    write_pixel_evidence(directory / paths["feasible"], _pixel_evidence(truth, tolerances))
     x, y = FAILING_PIXEL
     centre = truth[y, x].tolist()
     bounds = {"low": [c - 1e-6 for c in centre], "high": [c + 1e-6 for c in centre]}
@@ -157,7 +164,14 @@ def _evidence(directory: Path, names: Names, truth: Image, render: Image, tolera
         "largest_error": float(np.nanmax(np.abs(render - truth))),
         "seconds": 0.0421,
         "version": "3.9.1",
-        "judgement": {"pixels": SIDE**2, "failing": failing, "unjudged": 512, "ambiguous": 37, "worst": worst},
+        "judgement": {
+            "pixels": SIDE**2,
+            "failing": failing,
+            "unjudged": 512,
+            "capped": 1,
+            "ambiguous": 37,
+            "worst": worst,
+        },
         "first_hits": {"compared": 4059, "primitive_mismatches": 0, "ambiguous": 37, "failing": 0, **errors},
         "metrics": {
             "largest_difference": 1.2e-6,
@@ -168,6 +182,20 @@ def _evidence(directory: Path, names: Names, truth: Image, render: Image, tolera
         },
         "images": paths,
     }
+
+
+def _pixel_evidence(truth: Image, tolerances: Image) -> PixelEvidence:
+    """A narrow box around the truth; three of them at the ambiguous pixel, of which the value is in the second."""
+    low = np.full((SIDE, SIDE, 3, 3), np.nan, dtype=np.float32)
+    low[:, :, 0] = truth - np.float32(2e-6)
+    nearest = np.zeros((SIDE, SIDE), dtype=np.int64)
+    x, y = AMBIGUOUS_PIXEL
+    low[y, x] = low[y, x, 0] + np.float32(0.25) * np.array([[-1], [0], [1]], dtype=np.float32)
+    nearest[y, x] = 1
+    low[tolerances < 0] = np.nan
+    merged = np.zeros((SIDE, SIDE), dtype=bool)
+    merged[CAPPED_PIXEL[1], CAPPED_PIXEL[0]] = True
+    return PixelEvidence(low, low + np.float32(4e-6), nearest, merged)
 
 
 def _folder(names: Names) -> str:

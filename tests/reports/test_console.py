@@ -8,7 +8,7 @@ from rich.console import Console
 from comparisons.results import Results, Verdict
 from reports.console import print_matrix
 from reports.loading import load_results
-from reports.wording import WORDINGS
+from reports.wording import WORDINGS, capped
 from tests.reports.sample_results import write_sample
 
 
@@ -38,6 +38,7 @@ def test_counts_reasons_of_failures_and_the_report_are_printed(results: Results,
     text = printed(results, terminal=terminal)
     assert "9 cells: 5 passed, 1 failed, 1 incomparable, 1 unavailable, 1 ended in an error." in text
     assert "lie outside their" in text
+    assert "Capped pixels: 3,078 of 24,576 pixels in 6 judged cells (12.5 %): 6 in a box of several outcomes" in text
     assert "mitsuba ended with signal 6" in text
     assert "Report: /a/place/report.html" in text
 
@@ -54,7 +55,8 @@ def test_a_terminal_gets_a_sign_for_every_cell_and_a_legend(results: Results) ->
 def test_no_line_of_the_table_exceeds_80_columns_and_no_name_is_lost(results: Results, copies: int) -> None:
     wide = widened(results, copies)
     text = printed(wide, terminal=True)
-    assert max(cell_len(line) for line in text.splitlines() if "Report:" not in line and "cells:" not in line) <= 80
+    ends = ("Report:", "cells:", "Capped pixels:")  # in lines that are made to be copied
+    assert max(cell_len(line) for line in text.splitlines() if not any(end in line for end in ends)) <= 80
     assert all(scene.name in text for scene in results.scenes)
     for cell in wide.cells:
         assert f"{cell.renderer}/{cell.integrator}" in text or (copies == 1 and cell.renderer in text)
@@ -62,8 +64,8 @@ def test_no_line_of_the_table_exceeds_80_columns_and_no_name_is_lost(results: Re
 
 def test_elsewhere_each_cell_is_one_line(results: Results) -> None:
     lines = printed(results, terminal=False, width=30).splitlines()
-    assert len(lines) == len(results.cells) + 2
-    assert [line.split()[0] for line in lines[:-2]] == [cell.verdict for cell in results.cells]
+    assert len(lines) == len(results.cells) + 3
+    assert [line.split()[0] for line in lines[:-3]] == [cell.verdict for cell in results.cells]
 
 
 @pytest.mark.parametrize("terminal", [True, False])
@@ -88,4 +90,31 @@ def test_untrusted_words_are_neither_markup_nor_terminal_escapes(results: Result
 
 
 def test_a_run_without_cells_is_printed_too(results: Results) -> None:
-    assert "0 cells" in printed(results.model_copy(update={"cells": ()}), terminal=True)
+    text = printed(results.model_copy(update={"cells": ()}), terminal=True)
+    assert "0 cells" in text
+    assert "Capped" not in text
+
+
+@pytest.mark.parametrize(("merged", "unjudged"), [(0, 0), (0, 1), (1, 0), (2, 3)])
+def test_capped_pixels_are_summed_over_all_judged_cells(results: Results, merged: int, unjudged: int) -> None:
+    judged = [cell for cell in results.cells if cell.judgement is not None]
+    assert len(judged) > 2
+    cells = [
+        cell.model_copy(
+            update={"judgement": cell.judgement and cell.judgement.model_copy(update={"capped": 0, "unjudged": 0})}
+        )
+        for cell in judged
+    ]
+    worst = judged[1].judgement
+    assert worst is not None
+    capped_judgement = worst.model_copy(update={"capped": merged, "unjudged": unjudged})
+    cells[1] = judged[1].model_copy(update={"judgement": capped_judgement})
+    text = capped(results.model_copy(update={"cells": tuple(cells)}))
+    assert text is not None
+    if merged + unjudged == 0:
+        assert text == f"Capped pixels: none of 24,576 pixels in {len(judged)} judged cells."
+    else:
+        share = 100 * (merged + unjudged) / 24_576
+        assert text.startswith(f"Capped pixels: {merged + unjudged} of 24,576 pixels")
+        assert f"({share:.3g} %)" in text
+        assert text.endswith(f": {merged} in a box of several outcomes, {unjudged} not judged.")

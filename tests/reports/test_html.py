@@ -8,7 +8,7 @@ import pytest
 
 from comparisons.images import write_image
 from reports.html import ReportError, write_html_report
-from tests.reports.sample_results import HOSTILE, sample_document, sphere_image, write_sample
+from tests.reports.sample_results import HOSTILE, noise, sample_document, sphere_image, write_sample
 
 Change = Callable[[dict[str, Any]], object]
 
@@ -31,6 +31,10 @@ def page_of(directory: Path) -> str:
     return write_html_report(directory).read_text(encoding="utf-8")
 
 
+def pixel_scripts(directory: Path) -> dict[str, str]:
+    return {path.name: path.read_text(encoding="utf-8") for path in (directory / "pixels").iterdir()}
+
+
 def hostile(value: Any, keep: frozenset[str]) -> Any:
     """The document with every string replaced by a hostile one, but for the keys that must stay."""
     if isinstance(value, dict):
@@ -40,15 +44,25 @@ def hostile(value: Any, keep: frozenset[str]) -> Any:
     return HOSTILE if isinstance(value, str) else value
 
 
-def test_the_report_is_one_file_in_the_results_directory(directory: Path) -> None:
+def test_the_report_is_one_page_with_a_folder_of_pixels_in_the_results_directory(directory: Path) -> None:
     before = set(directory.iterdir())
     path = write_html_report(directory)
     assert path == directory / "report.html"
-    assert set(directory.iterdir()) - before == {path}
+    assert set(directory.iterdir()) - before == {path, directory / "pixels"}
+    with_images = [cell for cell in sample_document(directory)["cells"] if "images" in cell]
+    assert len(list((directory / "pixels").iterdir())) == len(with_images) - 1  # one lacks its render
 
 
 def test_the_report_is_a_function_of_the_results_alone(directory: Path) -> None:
-    assert page_of(directory) == page_of(directory)
+    first = page_of(directory), pixel_scripts(directory)
+    assert (page_of(directory), pixel_scripts(directory)) == first
+
+
+def test_scripts_of_cells_that_are_gone_go_too(directory: Path) -> None:
+    page_of(directory)
+    assert pixel_scripts(directory)
+    page_of(changed(directory, lambda document: document.update(cells=[])))
+    assert not (directory / "pixels").exists()
 
 
 def test_nothing_on_the_page_is_fetched(directory: Path) -> None:
@@ -85,6 +99,10 @@ def test_no_string_of_the_results_can_become_markup(directory: Path) -> None:
     assert page.count("<script") == clean.count("<script") == 1
     assert HOSTILE not in page
     assert '"&{{' not in page  # no quotation mark leaves an attribute
+    for name, text in pixel_scripts(directory).items():
+        assert "<" not in name
+        assert "<" not in text
+        assert re.fullmatch(r'raytruthPixels\("[\w./%~-]*", \{[\w"+/=:, ]*\}\);\n', text)
 
 
 def test_every_cell_has_its_detail_and_each_link_its_goal(directory: Path) -> None:
@@ -119,8 +137,10 @@ def test_a_render_of_another_size_is_told_in_its_cell(directory: Path) -> None:
 
 
 def test_an_image_with_other_channels_is_told_in_its_cell(directory: Path) -> None:
+    write_image(directory / "cells/lambert-sphere/mitsuba-direct/grey.exr", noise())
+
     def swap(document: dict[str, Any]) -> None:
-        document["cells"][0]["images"]["render"] = document["cells"][0]["images"]["tolerances"]
+        document["cells"][0]["images"]["render"] = "cells/lambert-sphere/mitsuba-direct/grey.exr"
 
     assert "has one channel" in page_of(changed(directory, swap))
 
@@ -141,6 +161,7 @@ def test_a_results_file_cannot_name_files_outside_its_directory(directory: Path,
     def point(document: dict[str, Any]) -> None:
         document["cells"][0]["log"] = outside
         document["cells"][0]["images"]["truth"] = outside
+        document["cells"][1]["images"]["feasible"] = outside
 
     page = page_of(changed(directory, point))
     assert "the secret" not in page
@@ -149,7 +170,7 @@ def test_a_results_file_cannot_name_files_outside_its_directory(directory: Path,
 
 def test_the_worst_pixel_stands_beside_its_feasible_interval(directory: Path) -> None:
     page = page_of(directory)
-    assert "Worst pixel: (20, 12), 300 tolerances from the truth" in page
+    assert "Worst pixel: (20, 12), 300 tolerances from the nearest outcome" in page
     assert "not a finite number at 3 pixels" in page
 
 
