@@ -50,6 +50,7 @@ class PixelEvaluator:
         self.depth = scene.max_depth
         self.medium = -1 if scene.camera.inside is None else list(scene.materials).index(scene.camera.inside)
         self.merged = False
+        self._primary: tuple[tuple[int, int], tuple[Any, Any]] | None = None
 
     def colors(self, column: int, line: int) -> tuple[list[Box], bool]:
         """The boxes of a pixel's feasible colours, and whether there were too many to tell apart.
@@ -57,7 +58,7 @@ class PixelEvaluator:
         Raises UndecidableError, also where one box spans more than half of all that a ray of the scene may bring: such
         a pixel would pass with almost any value.
         """
-        origin, direction = self.rays.primary_ray(column, line)
+        origin, direction = self._primary_ray(column, line)
         white = (arb(1), arb(1), arb(1))
         self.merged = False
         boxes = self._outcomes((origin, direction, white, NOTHING, self.medium, self.depth), MOST_OUTCOMES)
@@ -67,7 +68,7 @@ class PixelEvaluator:
 
     def first_hits(self, column: int, line: int) -> list[FirstHit]:
         """What the pixel's ray may meet first. Raises UndecidableError."""
-        origin, direction = self.rays.primary_ray(column, line)
+        origin, direction = self._primary_ray(column, line)
         try:
             hits = every_outcome(lambda: self.rays.first_hit(origin, direction), self.rays.decisions, MOST_OUTCOMES)
             found = [FirstHit(*hit) for hit in hits]
@@ -76,6 +77,12 @@ class PixelEvaluator:
         if not all(value.is_finite() for hit in found for value in hit.values):
             raise UndecidableError  # a triangle seen edge on may be met anywhere
         return found
+
+    def _primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+        """The very same for a pixel's colours and first hits, which makes it cheaper to meet."""
+        if self._primary is None or self._primary[0] != (column, line):
+            self._primary = (column, line), self.rays.primary_ray(column, line)
+        return self._primary[1]
 
     def _outcomes(self, ray: Any, most: int) -> list[Box]:
         """All that a ray and those that go on from it may contribute.

@@ -80,8 +80,10 @@ def feasible_set(
     pixels = [(column, line) for line in range(scene.camera.height) for column in range(scene.camera.width)]
     with ctx.workprec(ctx.prec):  # both ways of following rays set it
         plain = PixelEvaluator(PlainRays(scene, error_model, overrides), bound, FLOAT32_BITS)
-        colors = [_colors(plain, pixel) for pixel in pixels]
-        hits = [_first_hits(plain, pixel) for pixel in pixels]
+        colors, hits = [], []
+        for pixel in pixels:
+            colors.append(_colors(plain, pixel))
+            hits.append(_first_hits(plain, pixel))
         widest_radius = WIDE * _brightest(colors)
         wide = [place for place, color in enumerate(colors) if color is None or color.is_wide(widest_radius)]
         wide_hits = [place for place, hit in enumerate(hits) if hit is None]

@@ -55,7 +55,9 @@ class PlainRays:
         self.decisions = Decisions()
         arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions, offset_constants(error_model))
         self.prepared = prepare(scene, arithmetic, {**offset_overrides(error_model), **(overrides or {})})
-        self._frame = self.prepared.kernel.camera_frame(self.prepared.data)
+        kernel = self.prepared.kernel
+        kernel.nearest_hit = RememberedHit(kernel.nearest_hit, self.decisions)
+        self._frame = kernel.camera_frame(self.prepared.data)
 
     def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
         """As the protocol says."""
@@ -104,6 +106,26 @@ class LinkedRays:
         """As the protocol says."""
         primitive, values = first_hit(self.prepared, origin, direction)
         return primitive, tuple(enclosure(value) for value in values)
+
+
+class RememberedHit:
+    """A kernel's nearest hit, which need not be found twice for a pixel's colour and for its first hit."""
+
+    def __init__(self, find: Callable[..., tuple[Any, int]], decisions: Decisions) -> None:
+        self.find = find
+        self.decisions = decisions
+        self.ray: tuple[Any, Any] = (None, None)
+        self.hit: tuple[Any, int] = (None, NOTHING)
+
+    def __call__(self, data: Any, origin: Any, direction: Any, left: int) -> tuple[Any, int]:
+        """That of the last camera ray, if it is asked for again and nothing was undecided."""
+        if origin is self.ray[0] and direction is self.ray[1]:
+            return self.hit
+        before = self.decisions.position
+        hit = self.find(data, origin, direction, left)
+        if left == NOTHING and self.decisions.position == before:
+            self.ray, self.hit = (origin, direction), hit
+        return hit
 
 
 def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:

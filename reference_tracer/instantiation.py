@@ -73,6 +73,14 @@ def source_module() -> ast.Module:
     return ast.Module(body=body, type_ignores=[])
 
 
+@cache
+def exact_functions() -> frozenset[str]:
+    """The functions that only look numbers up: all their arithmetic is on whole numbers."""
+    path = Path(__file__).with_name("scene_data.py")
+    statements = ast.parse(path.read_text(encoding="utf-8")).body
+    return frozenset(statement.name for statement in statements if isinstance(statement, ast.FunctionDef))
+
+
 def kernel_source(
     features: Collection[str],
     overrides: Mapping[str, Callable[..., object]] | None = None,
@@ -98,7 +106,8 @@ def kernel_source(
     for function in reached:
         named = literals.visit(function)
         decided = _ComparisonCalls().visit(named) if decided_comparisons else named
-        body.append(_RoundingCalls().visit(decided) if rounded_operations else decided)
+        rounds = rounded_operations and function.name not in exact_functions()
+        body.append(_RoundingCalls().visit(decided) if rounds else decided)
     return ast.unparse(ast.fix_missing_locations(ast.Module(body=body, type_ignores=[]))), literals.names
 
 
