@@ -1,6 +1,4 @@
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -8,40 +6,11 @@ from typing import Any
 import numpy as np
 import OpenImageIO
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, expect
+from playwright.sync_api import expect
 
 from comparisons.results import Verdict
-from reports.html import write_html_report
-from tests.reports.sample_results import ODD_NAME, SIDE, sample_document, write_sample
-
-WCAG_AA = 4.5
-"""Least contrast of text to its background (Web Content Accessibility Guidelines 2.2, 1.4.3)."""
-
-CONTRASTS = """() => {
-  const parse = (colour) => colour.match(/[\\d.]+/g).map(Number);
-  const luminance = (rgb) => {
-    const light = rgb.map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
-    return 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2];
-  };
-  const background = (element) => {
-    for (let e = element; e; e = e.parentElement) {
-      const [r, g, b, alpha = 1] = parse(getComputedStyle(e).backgroundColor);
-      if (alpha === 1) return [r, g, b];
-      if (alpha > 0) throw new Error("a half transparent background: blend it first");
-    }
-    throw new Error("no background");
-  };
-  const found = [];
-  for (const element of document.body.querySelectorAll("*")) {
-    const own = [...element.childNodes].some((n) => n.nodeType === Node.TEXT_NODE && n.textContent.trim());
-    if (!own || !element.checkVisibility() || element.closest("script, .visually-hidden, .skip")) continue;
-    const text = luminance(parse(getComputedStyle(element).color).slice(0, 3));
-    const back = luminance(background(element));
-    const contrast = (Math.max(text, back) + 0.05) / (Math.min(text, back) + 0.05);
-    found.push({ text: element.textContent.trim().slice(0, 40), contrast });
-  }
-  return found;
-}"""
+from tests.browser.contrasts import CONTRASTS, WCAG_AA
+from tests.reports.sample_results import ODD_NAME, SIDE, sample_document
 
 DECODED = """async () => {
   const decoded = [];
@@ -64,44 +33,6 @@ VERDICTS_BY_VISIBILITY = """(all) => {
   }
   return shown;
 }"""
-
-
-@dataclass
-class Visit:
-    """A page with what happened while it was open."""
-
-    page: Page
-    requests: list[str]
-    complaints: list[str]
-
-
-@pytest.fixture(scope="module")
-def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write_html_report(write_sample(tmp_path_factory.mktemp("browser") / "results"))
-
-
-@pytest.fixture
-def contexts() -> Iterator[list[BrowserContext]]:
-    opened: list[BrowserContext] = []
-    yield opened
-    for context in opened:
-        context.close()
-
-
-@pytest.fixture
-def visit(browser: Browser, report: Path, contexts: list[BrowserContext]) -> Any:
-    def open_page(width: int = 1600, **options: Any) -> Visit:
-        context = browser.new_context(viewport={"width": width, "height": 900}, offline=True, **options)
-        contexts.append(context)
-        page = context.new_page()
-        visit = Visit(page, [], [])
-        page.on("request", lambda request: visit.requests.append(request.url))
-        page.on("console", lambda message: visit.complaints.append(message.text))
-        page.on("pageerror", lambda error: visit.complaints.append(str(error)))
-        page.goto(report.as_uri())
-        return visit
-
-    return open_page
 
 
 def test_the_page_asks_for_nothing_and_complains_of_nothing(visit: Any, report: Path) -> None:
