@@ -33,9 +33,9 @@ clean: ## Remove the environment and all caches; results/ stays
 
 # The stamps: an environment is made again only when what it is made from has changed.
 .venv/run.stamp: pyproject.toml constraints.txt tools/make_environment.sh
-	@bash tools/make_environment.sh . libllvm19
+	@bash tools/make_environment.sh . libllvm19 povray
 	@touch $@
 
 .venv/test.stamp: pyproject.toml constraints.txt tools/make_environment.sh
-	@bash tools/make_environment.sh '.[test]' libllvm19 chromium
+	@bash tools/make_environment.sh '.[test]' libllvm19 povray chromium
 	@touch $@ .venv/run.stamp

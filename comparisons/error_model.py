@@ -64,18 +64,30 @@ class ErrorModel:
     ray_offset: RayOffset = field(default_factory=RayOffset)
     shadow_shortening: float = 0.0
     """Shadow rays end at this fraction of the light's distance before the light."""
+    shadow_tolerance: float = 0.0
+    """What is nearer than this to a shadow ray's start, or to the light, may throw a shadow or none; 0: it does."""
+    index_bits: int | None = None
+    """Indices of refraction are stored with this many bits, if with fewer than all else."""
     output: OutputModel = field(default_factory=OutputModel)
     random_choices: str = ""
     """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""
 
+    def __post_init__(self) -> None:
+        nearest = self.ray_offset.minimum_distance
+        if self.shadow_tolerance and (self.ray_offset.excludes_surface or self.shadow_tolerance < nearest):
+            raise ValueError("a shadow tolerance is at least the least distance of hits, and excludes no surface")
+
     def in_words(self) -> dict[str, str]:
         """Each field as a clause, by what it is about."""
         shortened = f"{self.shadow_shortening:.3g} of the distance before the light"
+        near = f"{self.shadow_tolerance:.3g} from the surface or the light may throw a shadow or none"
         return {
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
+            "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
             "rays that leave a surface start": self.ray_offset.in_words(),
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",
+            "what is near": f"nearer than {near}" if self.shadow_tolerance > 0.0 else "throws shadows as all else",
             "output": self.output.in_words(),
             "random numbers": self.random_choices or "none",
         }

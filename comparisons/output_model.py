@@ -43,10 +43,18 @@ class OutputModel:
     rounding: Literal["nearest", "truncation"] = "nearest"
     clipped: bool = False
     """To [0, 1]."""
+    bracketed: bool = False
+    """Whether the picture is written at the exposures 1, 1/2, 1/4, …, and each value read from the brightest one in
+    which its code is not the largest. Only of linear integers."""
+    color_error: float = 0.0
+    """How far a colour may be off before all this, by arithmetic that is coarser than that of the rays: in units of
+    the colour or, if it is under 1, of 1, from which it may be the difference."""
 
     def __post_init__(self) -> None:
-        if self.numbers in LARGEST_CODES and not self.clipped:
-            raise ValueError("integers hold nothing outside [0, 1], so their output is clipped")
+        if self.numbers in LARGEST_CODES and not (self.clipped or self.bracketed):
+            raise ValueError("integers hold nothing outside [0, 1], so their output is clipped or bracketed")
+        if self.bracketed and (self.clipped or self.numbers not in LARGEST_CODES or self.transfer != "linear"):
+            raise ValueError("only linear integers are bracketed, and then they are not clipped")
 
     def interval_read(self, low: ArrayLike, high: ArrayLike) -> tuple[Array, Array]:
         """The linear values that may be read where the radiance is in [low, high]; NaN stays NaN.
@@ -63,16 +71,32 @@ class OutputModel:
     def in_words(self) -> str:
         """One clause."""
         clipping = "clipped to [0, 1]" if self.clipped else "not clipped"
+        if self.bracketed:
+            clipping = "at the brightest of the exposures 1, 1/2, 1/4, … that does not clip"
         rounding = "rounded to the nearest" if self.rounding == "nearest" else "truncated"
-        return f"{self.numbers}, {self.transfer}, {rounding}, {clipping}"
+        colors = f", of colours computed within {self.color_error:.3g}" if self.color_error > 0.0 else ""
+        return f"{self.numbers}, {self.transfer}, {rounding}, {clipping}{colors}"
 
     def _end_read(self, radiance: Array, side: int) -> Array:
         """The lowest (side -1) or highest (side 1) value that may be read for this radiance."""
-        clipped = np.clip(radiance, 0.0, 1.0) if self.clipped else radiance
+        computed = (
+            radiance + side * self.color_error * np.maximum(np.abs(radiance), 1.0) if self.color_error else radiance
+        )
+        clipped = np.clip(computed, 0.0, 1.0) if self.clipped else computed
         encoded = srgb_encoded(clipped) if self.transfer == "sRGB" else clipped
+        exposure = self._exposure(encoded, side) if self.bracketed else 1.0
+        encoded = encoded * exposure
         written = self._integers(encoded, side) if self.numbers in LARGEST_CODES else self._floats(encoded, side)
-        read = self.linear_values(written)
+        read = self.linear_values(written) / exposure
         return read + side * CURVE_ROUNDOFFS * FLOAT32_ROUNDOFF * np.abs(read) if self.transfer == "sRGB" else read
+
+    def _exposure(self, encoded: Array, side: int) -> Array:
+        """The brightest exposure in which this value, moved by all that may move it, is not written as the largest."""
+        largest = LARGEST_CODES[self.numbers]
+        first_clipped = largest - (0.5 if self.rounding == "nearest" else 0.0)
+        codes = encoded * largest + side * self._slack() * (encoded * largest + 0.5)
+        _, exponents = np.frexp(np.maximum(codes, 0.0) / first_clipped)  # the least power of two above
+        return np.ldexp(1.0, -np.maximum(exponents, 0))
 
     def _integers(self, encoded: Array, side: int) -> Array:
         """The farthest code that may be written, and half a code more."""

@@ -26,9 +26,11 @@ from reference_tracer.scene_data import (
     number_of,
     vector_of,
 )
+from reference_tracer.shadow import departure
 from reference_tracer.sphere import sphere_distance
+from reference_tracer.traversal import is_occluded
 from reference_tracer.triangle import triangle_distance
-from reference_tracer.vector import along, dot, subtract
+from reference_tracer.vector import add, along, dot, subtract
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,6 +47,10 @@ about_one: Scalar = 1.0
 minimum_distance: Scalar = 0.0
 shadow_shortening: Scalar = 0.0
 """The fraction of the light's distance that a shadow ray ends before the light."""
+shadow_tolerance: Scalar = 0.0
+"""What is nearer than this to a shadow ray's start or end may be ignored, or not."""
+either_sign: Scalar = 0.0
+"""Between -1 and 1: a comparison with 0 goes both ways."""
 
 
 def offset_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
@@ -60,6 +66,8 @@ def offset_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
         overrides["distance_to_other_side"] = distance_to_other_side_from_offset
     if error_model.shadow_shortening > 0.0:
         overrides["shadow_ray_end"] = early_shadow_ray_end
+    if error_model.shadow_tolerance > 0.0:
+        overrides["is_shadowed"] = is_shadowed_within_tolerance
     return overrides
 
 
@@ -72,6 +80,8 @@ def offset_constants(error_model: ErrorModel) -> dict[str, Any]:
         "about_one": arb(1, offset.relative),
         "minimum_distance": stored_number(offset.minimum_distance, bits),
         "shadow_shortening": stored_number(error_model.shadow_shortening, bits),
+        "shadow_tolerance": stored_number(error_model.shadow_tolerance, bits),
+        "either_sign": arb(0, 1),
     }
 
 
@@ -135,3 +145,24 @@ def distance_to_any_triangle(scene: SceneData, origin: Vector, direction: Vector
 def early_shadow_ray_end() -> Scalar:
     """Before the light."""
     return 1.0 - shadow_shortening
+
+
+def is_shadowed_within_tolerance(
+    scene: SceneData, primitive: int, point: Vector, normal: Vector, to_light: Vector, light_is_near: bool
+) -> bool:
+    """Either way where only something very near to the point or to the light may throw a shadow."""
+    origin, left = departure(primitive, point, normal, to_light)
+    skipped = (shadow_tolerance - minimum_distance) / sqrt(dot(to_light, to_light))
+    later = along(origin, to_light, skipped)
+    if light_is_near:
+        direction = subtract(add(point, to_light), origin)
+        longest = is_occluded(scene, origin, direction, left, 1.0)
+        end = 1.0 - shadow_tolerance / sqrt(dot(to_light, to_light)) - skipped
+        # From the later start the way is shorter, but the direction has the same length.
+        shortest = is_occluded(scene, later, direction, left, end)
+    else:
+        longest = is_occluded(scene, origin, to_light, left, inf)
+        shortest = is_occluded(scene, later, to_light, left, inf)
+    if longest and not shortest:
+        return either_sign > 0.0
+    return longest

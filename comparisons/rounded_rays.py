@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 from flint import arb
 
 from comparisons.ray_offsets import offset_constants, offset_overrides
-from reference_tracer.balls import Decisions, rounded_ball_arithmetic
+from reference_tracer.arithmetic import FLOAT
+from reference_tracer.balls import Decisions, rounded_ball_arithmetic, stored_number
 from reference_tracer.linked_arithmetic import linked_arithmetic
 from reference_tracer.linked_balls import condensed, enclose, enclosure
 from reference_tracer.rendering import prepare
+from reference_tracer.scene_data import MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX, rows_of
 from reference_tracer.traversal import NOTHING
 
 if TYPE_CHECKING:
@@ -55,6 +57,7 @@ class PlainRays:
         self.decisions = Decisions()
         arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions, offset_constants(error_model))
         self.prepared = prepare(scene, arithmetic, {**offset_overrides(error_model), **(overrides or {})})
+        store_indices(self.prepared, error_model.index_bits)
         kernel = self.prepared.kernel
         kernel.nearest_hit = RememberedHit(kernel.nearest_hit, self.decisions)
         self._frame = kernel.camera_frame(self.prepared.data)
@@ -82,6 +85,7 @@ class LinkedRays:
         self.decisions = Decisions()
         arithmetic = linked_arithmetic(error_model.precision_bits, self.decisions, offset_constants(error_model))
         self.prepared = prepare(scene, arithmetic, {**offset_overrides(error_model), **(overrides or {})})
+        store_indices(self.prepared, error_model.index_bits)
         frame = self.prepared.kernel.camera_frame(self.prepared.data)
         numbers = iter(condensed([number for vector in frame for number in vector]))
         self._frame = tuple(tuple(next(numbers) for _ in vector) for vector in frame)
@@ -106,6 +110,22 @@ class LinkedRays:
         """As the protocol says."""
         primitive, values = first_hit(self.prepared, origin, direction)
         return primitive, tuple(enclosure(value) for value in values)
+
+
+def store_indices(prepared: PreparedScene, bits: int | None) -> None:
+    """Put what a renderer may store for indices of refraction, with so few bits, into the tables; None: no fewer bits.
+
+    In linked balls each table entry is an error of its own: that a medium has the same index on both sides of two
+    surfaces is forgotten only where it is the `outside` of one.
+    """
+    if bits is None:
+        return
+    exact = prepare(prepared.scene, FLOAT).data.numbers
+    own_error = prepared.arithmetic.functions.get("ball", lambda ball: ball)
+    for table in (MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX):
+        first = prepared.data.integers[table]
+        for place in range(first, first + rows_of(prepared.data, table)):
+            prepared.data.numbers[place] = own_error(stored_number(float(exact[place]), bits))
 
 
 class RememberedHit:

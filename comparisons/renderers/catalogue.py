@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.renderers.closed_form import ClosedFormRenderer
 from comparisons.renderers.mitsuba import mitsuba_llvm, mitsuba_scalar
+from comparisons.renderers.povray import PovRay
 from comparisons.renderers.reference import ReferenceTracer
 from scenes.wording import quoted, suggestion
 
@@ -21,7 +22,13 @@ class UnknownRendererError(Exception):
 
 def all_renderers() -> dict[str, Renderer]:
     """Each renderer by its name, available here or not."""
-    renderers: tuple[Renderer, ...] = (mitsuba_scalar(), mitsuba_llvm(), ClosedFormRenderer(), ReferenceTracer())
+    renderers: tuple[Renderer, ...] = (
+        mitsuba_scalar(),
+        mitsuba_llvm(),
+        PovRay(),
+        ClosedFormRenderer(),
+        ReferenceTracer(),
+    )
     return {renderer.name: renderer for renderer in renderers}
 
 

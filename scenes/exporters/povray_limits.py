@@ -1,0 +1,169 @@
+"""What POV-Ray 3.7 can express of a scene."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from scenes.exporters.povray_materials import polynomial_falloff
+from scenes.shapes import Mesh, Sphere
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from scenes.materials import Dielectric
+    from scenes.scene import Scene
+    from scenes.shapes import Shape
+
+UNIT = 1024
+"""POV-Ray's units in a unit of the scene: a power of two rounds nothing."""
+# POV-Ray meets nothing farther than this (MAX_DISTANCE in source/backend/configbackend.h of version 3.7.0.10).
+FARTHEST = 1e7 / UNIT
+# Its colours are float32, whose roundings the error model counts for this many reflections and refractions.
+DEEPEST = 12
+
+
+def refuses(scene: Scene) -> str | None:
+    """Why POV-Ray cannot express this scene, in one clause that follows 'because'; None if it can."""
+    if scene.max_depth > DEEPEST:
+        return f"POV-Ray computes colours in float32, whose roundings are bounded for {DEEPEST} bounces"
+    if _extent(scene) > FARTHEST:
+        return f"POV-Ray meets nothing that is farther than {FARTHEST:.4g} units away"
+    if len(scene.lights) > 1 and any(polynomial_falloff(light) for light in scene.lights):
+        return "lights of POV-Ray have no polynomial attenuation, and a filter in its place would dim other lights, too"
+    return _refuses_dielectrics(scene) if scene.max_depth else None
+
+
+def spans_of(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Balls that hold all objects: centres of spheres with their radii, and corners; shapes (n, 3) and (n,)."""
+    balls: list[tuple[tuple[float, float, float], float]] = []
+    for shape in scene.objects:
+        if isinstance(shape, Sphere):
+            balls.append((shape.center, shape.radius))
+        else:
+            balls.extend((vertex, 0.0) for vertex in shape.vertices)
+    return np.array([center for center, _ in balls]), np.array([radius for _, radius in balls])
+
+
+def _extent(scene: Scene) -> float:
+    """A bound on the distance of any two points of the scene, lights and camera included."""
+    centers, radii = spans_of(scene)
+    others = [scene.camera.position, *(light.position for light in scene.lights if light.kind == "point")]
+    low = np.vstack([centers - radii[:, None], others]).min(axis=0)
+    high = np.vstack([centers + radii[:, None], others]).max(axis=0)
+    # A parallel light stands beyond all objects; an orthographic camera's rays start beside its position.
+    return 4 * float(np.linalg.norm(high - low))
+
+
+def _refuses_dielectrics(scene: Scene) -> str | None:
+    """POV-Ray knows a ray's medium from the surfaces it has passed, and ours from the surface that it meets."""
+    shapes = [shape for shape in scene.objects if scene.materials[shape.material].dielectric]
+    for shape in shapes:
+        dielectric = scene.materials[shape.material].dielectric
+        assert dielectric is not None  # the shapes were chosen so
+        reason = _refuses_dielectric(dielectric) or _refuses_shape(shape)
+        if reason:
+            return reason
+    boxes = [_box(shape) for shape in shapes]
+    for i, first in enumerate(shapes):
+        if any(_may_overlap(first, boxes[i], second, boxes[j]) for j, second in enumerate(shapes[:i])):
+            return "two dielectric objects may overlap, and POV-Ray takes the medium from what a ray has passed before"
+    return _refuses_camera(scene, shapes)
+
+
+def _refuses_dielectric(dielectric: Dielectric) -> str | None:
+    if dielectric.outside is not None:
+        return (
+            "POV-Ray 3.7 finds no Fresnel reflection where a ray leaves an object inside another "
+            "(it compares that object's index with itself)"
+        )
+    if dielectric.index_of_refraction == 1.0:
+        return "POV-Ray does not count a surface between equal indices as a refraction"
+    if dielectric.reflectance is not None:
+        if dielectric.index_of_refraction < 1.0:
+            return (
+                "POV-Ray reflects all where a ray is totally reflected from outside, whatever the constant weights say"
+            )
+        if min(dielectric.reflectance) == 0.0:
+            return "POV-Ray weights total reflection like what comes through, which a weight of 0 would hide as well"
+    return None
+
+
+def _refuses_shape(shape: Shape) -> str | None:
+    """Only what has an inside can have a medium."""
+    if isinstance(shape, Sphere):
+        return None
+    if not isinstance(shape, Mesh) or not _is_closed(shape):
+        return "a dielectric is not a closed mesh, and POV-Ray takes the medium from what a ray has passed before"
+    corners = np.array(shape.vertices)[np.array(shape.faces)]
+    if np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() <= 0:
+        return "the normals of a dielectric point inward, and POV-Ray takes a ray that meets it first to enter it"
+    return None
+
+
+def _is_closed(mesh: Mesh) -> bool:
+    """Whether each edge belongs to two faces that run along it in opposite directions, by the coordinates."""
+    edges = Counter(
+        (mesh.vertices[a], mesh.vertices[b])
+        for face in mesh.faces
+        for a, b in zip(face, (*face[1:], face[0]), strict=True)
+    )
+    return all(count == 1 and edges[(b, a)] == 1 for (a, b), count in edges.items())
+
+
+def _box(shape: Shape) -> NDArray[np.float64]:
+    """Lowest and highest corner, shape (2, 3)."""
+    if isinstance(shape, Sphere):
+        return np.array([np.array(shape.center) - shape.radius, np.array(shape.center) + shape.radius])
+    points = np.array(shape.vertices)
+    return np.array([points.min(axis=0), points.max(axis=0)])
+
+
+def _may_overlap(first: Shape, first_box: NDArray[np.float64], second: Shape, second_box: NDArray[np.float64]) -> bool:
+    if isinstance(first, Sphere) and isinstance(second, Sphere):
+        distance = np.linalg.norm(np.subtract(first.center, second.center))
+        return bool(distance <= first.radius + second.radius)
+    return bool((first_box[0] <= second_box[1]).all() and (second_box[0] <= first_box[1]).all())
+
+
+def _refuses_camera(scene: Scene, shapes: list[Shape]) -> str | None:
+    """The camera must be inside just the one object whose medium it is in."""
+    camera = scene.camera
+    if camera.projection == "orthographic":
+        if camera.inside is not None or (shapes and any(_meets_plane(scene, shape) for shape in scene.objects)):
+            return "POV-Ray's parallel rays may start in different media"
+        return None
+    holding = [shape for shape in _around_camera(scene) if scene.materials[shape.material].dielectric]
+    if camera.inside is None:
+        return "the camera may be inside an object, where POV-Ray would take its medium" if holding else None
+    if [shape.material for shape in holding] != [camera.inside]:
+        return "the camera's medium is not that of the object around it, from which POV-Ray takes it"
+    return None
+
+
+def _around_camera(scene: Scene) -> Iterator[Shape]:
+    """Objects that the camera is or may be inside of."""
+    position = np.array(scene.camera.position)
+    for shape in scene.objects:
+        if isinstance(shape, Sphere):
+            if np.linalg.norm(position - shape.center) <= shape.radius:
+                yield shape
+        elif isinstance(shape, Mesh):
+            low, high = _box(shape)
+            if (low <= position).all() and (position <= high).all():
+                yield shape
+
+
+def _meets_plane(scene: Scene, shape: Shape) -> bool:
+    """Whether the plane in which parallel rays start may cut the object."""
+    forward = np.subtract(scene.camera.look_at, scene.camera.position)
+    low, high = _box(shape)
+    heights = [
+        float(np.dot(np.where(np.array(corner), high, low) - scene.camera.position, forward))
+        for corner in np.ndindex(2, 2, 2)
+    ]
+    return min(heights) <= 0.0 <= max(heights)

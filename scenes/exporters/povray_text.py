@@ -1,0 +1,31 @@
+"""Numbers, vectors and comments as POV-Ray's scene language writes them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+
+def vector(values: Iterable[float]) -> str:
+    """A vector whose components read back as the same float64."""
+    return f"<{', '.join(repr(float(value)) for value in values)}>"
+
+
+def color(values: Sequence[float]) -> str:
+    """A colour."""
+    return f"rgb {vector(values)}"
+
+
+def comment(text: str) -> str:
+    """A comment of one line; the text is the scene author's and may hold what ends a line."""
+    return f"// {''.join(c if c.isprintable() else ' ' for c in text)}\n"
+
+
+def block(keyword: str, *lines: str) -> str:
+    """`keyword { ... }` with indented lines; on one line if there is only one."""
+    if len(lines) == 1 and "\n" not in lines[0]:
+        return f"{keyword} {{ {lines[0]} }}"
+    inner = "\n".join(lines).replace("\n", "\n  ")
+    return f"{keyword} {{\n  {inner}\n}}"
