@@ -40,6 +40,17 @@ def test_offsets_that_no_renderer_can_have_are_refused() -> None:
         RayOffset(absolute=1e-4, along="direction")
 
 
+def test_a_shadow_tolerance_needs_surfaces_that_are_tested_and_is_no_less_than_the_least_distance() -> None:
+    tested = RayOffset(minimum_distance=1e-3, excludes_surface=False)
+    with pytest.raises(ValueError, match="shadow tolerance"):
+        ErrorModel("", 24, shadow_tolerance=1e-3)
+    with pytest.raises(ValueError, match="shadow tolerance"):
+        ErrorModel("", 24, tested, shadow_tolerance=1e-4)
+    words = ErrorModel("", 24, tested, shadow_tolerance=1e-2, index_bits=11).in_words()
+    assert words["what is near"] == "nearer than 0.01 from the surface or the light may throw a shadow or none"
+    assert words["indices of refraction"] == "stored with 11 bits"
+
+
 def test_the_words_have_a_clause_for_every_field() -> None:
     assert len(ErrorModel("a renderer", 24).in_words()) == len(fields(ErrorModel))
 

@@ -214,3 +214,40 @@ def test_the_words_name_every_field() -> None:
         "uint8, sRGB, truncated, clipped to [0, 1]"
     )
     assert len({model.in_words() for model in MODELS}) == len(MODELS)
+
+
+def read_from_brackets(value: float, largest: int) -> float:
+    """Written once more: the brightest of the exposures 1, 1/2, 1/4, … at which the code is not the largest."""
+    exposure = 1.0
+    while (code := min(largest, math.floor(value * exposure * largest + 0.5))) == largest:
+        exposure /= 2
+    return code / largest / exposure
+
+
+@given(st.floats(0, 1e9), st.sampled_from(["uint8", "uint16"]), st.floats(-1, 1))
+def test_what_brackets_read_is_allowed_and_two_codes_beside_it_are_not(
+    value: float, numbers: Any, error: float
+) -> None:
+    error_bound = 1e-3
+    note_case(value=value, numbers=numbers, error=error)
+    model = OutputModel(numbers, bracketed=True, color_error=error_bound)
+    computed = max(0.0, value + error * error_bound * max(1.0, value))
+    low, high = model.interval_read(value, value)
+    read = read_from_brackets(computed, LARGEST_CODES[numbers])
+    assert low <= read <= high
+    step = 2 ** max(0, math.frexp(high)[1]) / LARGEST_CODES[numbers]
+    assert high - low <= 2 * error_bound * max(1.0, value) + 3 * step
+
+
+def test_only_linear_integers_are_bracketed_and_are_not_clipped_as_well() -> None:
+    for options in ({"numbers": "float16"}, {"transfer": "sRGB"}, {"clipped": True}):
+        with pytest.raises(ValueError, match="bracketed"):
+            OutputModel(**({"numbers": "uint16"} | options), bracketed=True)  # type: ignore[arg-type]  # wrong on purpose
+
+
+def test_brackets_and_errors_of_colours_are_told_in_words() -> None:
+    words = OutputModel("uint16", bracketed=True, color_error=0.25).in_words()
+    assert words == (
+        "uint16, linear, rounded to the nearest, at the brightest of the exposures 1, 1/2, 1/4, … that does not clip, "
+        "of colours computed within 0.25"
+    )

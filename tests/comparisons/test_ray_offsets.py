@@ -14,7 +14,14 @@ from comparisons.error_model import ErrorModel, RayOffset
 from comparisons.ray_offsets import offset_constants, offset_overrides
 from reference_tracer.arithmetic import make_kernel
 from reference_tracer.balls import Decisions, every_outcome, rounded_ball_arithmetic
-from reference_tracer.scene_data import SPHERE_CENTER, SPHERE_RADIUS, TRIANGLE_A, TRIANGLE_B, TRIANGLE_C
+from reference_tracer.scene_data import (
+    SPHERE_CENTER,
+    SPHERE_RADIUS,
+    TRIANGLE_A,
+    TRIANGLE_B,
+    TRIANGLE_C,
+    TRIANGLE_MATERIAL,
+)
 from scenes.requirements import Feature
 from tests.reference_tracer.kernels import kept_precision, scene_data
 
@@ -67,6 +74,8 @@ def test_only_what_the_offset_changes_is_overridden() -> None:
     assert names(LIKE_MITSUBA) == {"departure", "distance_to_other_side"}
     assert names(RayOffset(absolute=OFFSET, excludes_surface=False)) == {"departure", *tested}
     assert names(RayOffset(minimum_distance=OFFSET, excludes_surface=False)) == tested
+    model = ErrorModel("", 24, RayOffset(excludes_surface=False), shadow_tolerance=OFFSET)
+    assert set(offset_overrides(model)) == {"is_shadowed", *tested}
 
 
 def test_shadow_rays_end_before_the_light() -> None:
@@ -102,7 +111,7 @@ def test_a_departing_ray_starts_where_the_policy_says(
 
 SPHERE = scene_data({SPHERE_CENTER: [(arb(0), arb(0), arb(0))], SPHERE_RADIUS: [arb(1)]})
 CORNERS = {TRIANGLE_A: (-1, -1, 0), TRIANGLE_B: (1, -1, 0), TRIANGLE_C: (0, 1, 0)}
-TRIANGLE = scene_data({table: [balls(corner)] for table, corner in CORNERS.items()})
+TRIANGLE = scene_data({**{table: [balls(corner)] for table, corner in CORNERS.items()}, TRIANGLE_MATERIAL: [0]})
 LEAST = 2.0**-6
 
 
@@ -210,3 +219,33 @@ def test_a_ray_that_may_graze_its_sphere_does_both() -> None:
         )
     )
     assert sorted(ball.is_finite() for ball in outcomes) == [False, True]
+
+
+@pytest.mark.parametrize("light_is_near", [True, False])
+@pytest.mark.parametrize(
+    ("height", "expected"), [(LEAST / 2, {False}), (3 * LEAST, {True, False}), (5 * LEAST, {True}), (4.0, {True})]
+)
+def test_within_the_shadow_tolerance_something_throws_a_shadow_or_none(
+    height: float, expected: set[bool], light_is_near: bool
+) -> None:
+    """The triangle stands at this height above the point, and below the light if that is near."""
+    decisions = Decisions()
+    offset = RayOffset(minimum_distance=LEAST, excludes_surface=False)
+    model = ErrorModel("", 53, offset, shadow_tolerance=4 * LEAST)
+    constants = offset_constants(model)
+    features = set(Feature) - {Feature.BOUNDING_VOLUMES}  # one triangle needs no tree
+    kernel = make_kernel(rounded_ball_arithmetic(53, decisions, constants), features, offset_overrides(model))
+    up = balls((0.0, 0.0, 1.0))
+    below = balls((0.0, -0.2, -height))
+
+    def answers(to_light: float) -> set[bool]:
+        def shadowed() -> bool:
+            return bool(kernel.is_shadowed(TRIANGLE, -1, below, up, balls((0.0, 0.0, to_light)), light_is_near))
+
+        return set(every_outcome(shadowed, decisions, 4))
+
+    assert answers(16.0) == expected
+    if light_is_near and expected == {True}:
+        assert answers(height + 3 * LEAST) == {True, False}
+        assert answers(height + 5 * LEAST) == {True}
+        assert answers(height - LEAST) == {False}

@@ -104,6 +104,18 @@ def test_export_writes_a_mitsuba_scene_and_its_meshes(tmp_path: Path, capsys: py
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
+def test_export_writes_a_povray_scene_and_tells_how_to_render_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "out" / "scene.pov"
+    status, out, _ = run(capsys, "scenes", "export", "whitted-1980", "--to", "povray", "--out", str(file.parent))
+    assert status == 0
+    assert f"povray {file} +W160 +H120" in out
+    assert "#version 3.7;" in file.read_text(encoding="utf-8")
+    refused = refusal(capsys, "scenes", "export", "bubble-in-glass", "--to", "povray", "--out", str(tmp_path / "no"))
+    assert "cannot be written for POV-Ray, because POV-Ray 3.7 finds no Fresnel" in refused
+
+
 def test_export_leaves_other_files_of_the_folder_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "mine.txt").write_text("mine")
     assert run(capsys, "scenes", "export", "plane-mirror", "--to", "mitsuba", "-o", str(tmp_path))[0] == 0

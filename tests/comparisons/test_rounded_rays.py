@@ -1,0 +1,43 @@
+"""What a renderer stores in place of the scene's numbers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from comparisons.error_model import ErrorModel
+from comparisons.rounded_rays import LinkedRays, PlainRays
+from reference_tracer.linked_balls import enclosure
+from reference_tracer.scene_data import MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX, number_of
+from scenes.library import open_scene
+from tests.reference_tracer.kernels import kept_precision
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+pytestmark = pytest.mark.usefixtures("keep_precision")
+
+
+@pytest.fixture
+def keep_precision() -> Iterator[None]:
+    yield from kept_precision()
+
+
+@pytest.mark.parametrize(("way", "ball_of"), [(PlainRays, lambda ball: ball), (LinkedRays, enclosure)])
+def test_indices_of_refraction_have_the_bits_that_are_declared(way: Any, ball_of: Any) -> None:
+    scene = open_scene("total-reflection-prism")  # of index 1.5, which is exact
+    other = open_scene("glass-sphere")
+    dielectric = other.materials["glass"].dielectric
+    assert dielectric is not None
+    index = dielectric.index_of_refraction
+    for bits, stored in ((24, float(np.float32(index))), (None, index)):
+        model = ErrorModel("", 45, index_bits=bits)
+        data = way(other, model).prepared.data
+        ball = ball_of(number_of(data, MATERIAL_INDEX, 0))
+        assert ball.contains(stored)
+        assert ball.contains(index)
+        assert float(ball.rad()) < index * 2.0 ** (1 - (bits or 45))
+        assert ball_of(number_of(data, MATERIAL_OUTSIDE_INDEX, 0)) == 1
+        assert ball_of(number_of(way(scene, model).prepared.data, MATERIAL_INDEX, 0)) == 1.5

@@ -1,0 +1,80 @@
+"""What POV-Ray cannot express is refused."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from scenes.exporters.povray_limits import refuses
+from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, MIRROR, POINT, RED, SUN, build
+
+POLYNOMIAL = POINT | {"falloff": {"constant": 1.0, "linear": 0.1, "quadratic": 0.1}}
+WEIGHTS = {"index_of_refraction": 1.5, "reflectance": (0.1, 0.1, 0.1), "transmittance": (0.9, 0.9, 0.9)}
+CORNERS = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
+TETRAHEDRON = {"shape": "mesh", "vertices": CORNERS, "faces": FACES, "material": "m"}
+CAMERA: dict[str, Any] = {
+    "projection": "perspective",
+    "position": (0.0, 1.0, 5.0),
+    "look_at": (0.0, 0.0, 0.0),
+    "width": 32,
+    "height": 24,
+    "vertical_field_of_view": 40.0,
+}
+PARALLEL = {key: value for key, value in CAMERA.items() if key != "vertical_field_of_view"} | {
+    "projection": "orthographic",
+    "view_height": 3.0,
+}
+
+
+def glass(**changes: Any) -> dict[str, Any]:
+    return {"materials": {"m": GLASS}, "max_depth": 2} | changes
+
+
+@pytest.mark.parametrize(
+    ("changes", "word"),
+    [
+        ({"max_depth": 13}, "float32"),
+        ({"objects": [BALL | {"center": (9e5, 0.0, 0.0)}]}, "farther"),
+        ({"lights": [POLYNOMIAL, SUN]}, "polynomial"),
+        (glass(materials={"m": {"dielectric": WEIGHTS | {"index_of_refraction": 0.7}}}), "totally reflected"),
+        (glass(materials={"m": {"dielectric": WEIGHTS | {"reflectance": (0.1, 0.0, 0.1)}}}), "weight of 0"),
+        (glass(materials={"m": {"dielectric": {"index_of_refraction": 1.0}}}), "equal indices"),
+        (glass(objects=[FLOOR]), "closed"),
+        (glass(objects=[TETRAHEDRON | {"faces": FACES[1:]}]), "closed"),
+        (glass(objects=[TETRAHEDRON | {"faces": [face[::-1] for face in FACES]}]), "inward"),
+        (glass(objects=[BALL, BALL | {"center": (2.2, 0.2, 0.3)}]), "overlap"),
+        (glass(objects=[BALL, TETRAHEDRON]), "overlap"),
+        (glass(objects=[BALL | {"center": (0.0, 1.0, 5.2)}]), "camera may be inside"),
+        (glass(camera=CAMERA | {"inside": "m"}), "camera's medium"),
+        (glass(camera=PARALLEL, objects=[BALL | {"center": (9.0, 1.0, 5.0)}]), "parallel rays"),
+    ],
+)
+def test_what_povray_cannot_express_is_refused_with_its_reason(changes: dict[str, Any], word: str) -> None:
+    reason = refuses(build(**changes))
+    assert reason is not None
+    assert word in reason
+
+
+def test_an_object_inside_another_is_refused() -> None:
+    bubble = {"dielectric": {"index_of_refraction": 1.2, "outside": "m"}}
+    inner = BALL | {"radius": 0.5, "material": "bubble"}
+    assert "Fresnel" in str(refuses(build(**glass(materials={"m": GLASS, "bubble": bubble}, objects=[BALL, inner]))))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"materials": {"m": RED | MIRROR}, "max_depth": 12, "lights": [POINT, SUN], "convention": "whitted"},
+        {"lights": [POLYNOMIAL]},
+        glass(materials={"m": {"dielectric": WEIGHTS}}),
+        glass(objects=[TETRAHEDRON]),
+        glass(objects=[BALL, BALL | {"center": (2.4, 0.2, 0.3)}]),
+        glass(camera=CAMERA | {"inside": "m"}, objects=[BALL | {"center": (0.0, 1.0, 5.2)}]),
+        glass(camera=PARALLEL),
+        {"materials": {"m": GLASS}, "objects": [FLOOR]},
+    ],
+)
+def test_what_povray_can_express_is_not_refused(changes: dict[str, Any]) -> None:
+    assert refuses(build(**changes)) is None
