@@ -67,7 +67,7 @@ class ErrorModel:
     shadow_tolerance: float = 0.0
     """What is nearer than this to a shadow ray's start, or to the light, may throw a shadow or none; 0: it does."""
     index_bits: int | None = None
-    """Indices of refraction are stored with this many bits, if with fewer than all else."""
+    """Indices of refraction are rounded to this many bits when they are stored, if to fewer than all else."""
     output: OutputModel = field(default_factory=OutputModel)
     random_choices: str = ""
     """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""

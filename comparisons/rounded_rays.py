@@ -6,13 +6,14 @@ slower: numbers know which errors they share, so a bundle of rays keeps its shap
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import arb
 
 from comparisons.ray_offsets import offset_constants, offset_overrides
 from reference_tracer.arithmetic import FLOAT
-from reference_tracer.balls import Decisions, rounded_ball_arithmetic, stored_number
+from reference_tracer.balls import Decisions, rounded_ball_arithmetic
 from reference_tracer.linked_arithmetic import linked_arithmetic
 from reference_tracer.linked_balls import condensed, enclose, enclosure
 from reference_tracer.rendering import prepare
@@ -113,19 +114,16 @@ class LinkedRays:
 
 
 def store_indices(prepared: PreparedScene, bits: int | None) -> None:
-    """Put what a renderer may store for indices of refraction, with so few bits, into the tables; None: no fewer bits.
-
-    In linked balls each table entry is an error of its own: that a medium has the same index on both sides of two
-    surfaces is forgotten only where it is the `outside` of one.
-    """
+    """Put what a renderer stores for indices of refraction into the tables: rounded to so few bits, or as they are."""
     if bits is None:
         return
     exact = prepare(prepared.scene, FLOAT).data.numbers
-    own_error = prepared.arithmetic.functions.get("ball", lambda ball: ball)
     for table in (MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX):
         first = prepared.data.integers[table]
         for place in range(first, first + rows_of(prepared.data, table)):
-            prepared.data.numbers[place] = own_error(stored_number(float(exact[place]), bits))
+            mantissa, exponent = math.frexp(exact[place])
+            rounded = math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits)
+            prepared.data.numbers[place] = prepared.arithmetic.number(rounded)
 
 
 class RememberedHit:

@@ -77,6 +77,8 @@ def _refuses_dielectrics(scene: Scene) -> str | None:
 
 def _refuses_dielectric(dielectric: Dielectric) -> str | None:
     if dielectric.outside is not None:
+        # Trace::ComputeRelativeIOR in source/backend/render/trace.cpp of 3.7.0.10 takes the last of the ray's interiors
+        # for the medium beyond, when that is still the object itself. With R = 0 there, our tracer gives its pictures.
         return (
             "POV-Ray 3.7 finds no Fresnel reflection where a ray leaves an object inside another "
             "(it compares that object's index with itself)"
