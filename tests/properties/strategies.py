@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import permutations, product
-from math import cos, sin, sqrt, tau, ulp
+from math import cos, inf, nan, sin, sqrt, tau, ulp
 from typing import Any, NamedTuple
 
 from hypothesis import strategies as st
@@ -239,6 +239,10 @@ def rays_at_fans(draw: st.DrawFn) -> tuple[Ray, Fan]:
 
 # Where between the faces of a box.
 BOX_PARTS = st.one_of(st.sampled_from([0.5, 0.0, 1.0, 1.5, -0.5, 1.0 + 2.0**-50]), st.floats(0.0, 1.0))
+
+# With these, squares and products overflow, vanish or are no numbers.
+STRANGE = st.sampled_from([0.0, -0.0, 1.0, -2.5, 5e-324, -1e-310, 1e-170, 1e170, -1.7e308, inf, -inf, nan])
+STRANGE_VECTORS = st.tuples(STRANGE, STRANGE, STRANGE)
 
 # Rational numbers with small denominators, negative ones and 0 too.
 SMALL_FRACTIONS = st.builds(Fraction, st.integers(-12, 12), st.integers(1, 12))

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import pairwise
-from math import inf, nan
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from tests.properties.strategies import (
     CLEAR_OF_EDGES,
     INSIDE,
     SMALL_FRACTIONS,
+    STRANGE_VECTORS,
     Corners,
     Fan,
     Ray,
@@ -242,11 +243,6 @@ def test_no_ray_passes_between_triangles_that_share_an_edge_or_a_corner(
     kernel = numpy_kernel(number)
     distances = [kernel.triangle_distance(origin, direction, hub, one, other) for one, other in pairwise(rim)]
     assert min(distances) < inf
-
-
-# With these, squares and products overflow, vanish or are no numbers.
-STRANGE = st.sampled_from([0.0, -0.0, 1.0, -2.5, 5e-324, -1e-310, 1e-170, 1e170, -1.7e308, inf, -inf, nan])
-STRANGE_VECTORS = st.tuples(STRANGE, STRANGE, STRANGE)
 
 
 @given(STRANGE_VECTORS, STRANGE_VECTORS, st.tuples(STRANGE_VECTORS, STRANGE_VECTORS, STRANGE_VECTORS))
