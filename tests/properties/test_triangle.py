@@ -140,9 +140,15 @@ def test_hit_points_lie_ahead_in_the_plane_and_between_the_corners(case: tuple[R
 
 @given(rays_near_triangles())
 def test_both_windings_are_hit_at_the_same_distance(case: tuple[Ray, Corners]) -> None:
-    # Every sum and product changes its sign only, which does not round.
+    # Every product, and the sum of two, only changes its sign, which does not round: so the same rays hit. Only where
+    # the plane's determinant is 0 by rounding, sums of three numbers come in another order.
     ray, (a, b, c) = case
-    assert distance_of(ray, (a, c, b)) == distance_of(ray, (a, b, c))
+    distance, other = distance_of(ray, (a, b, c)), distance_of(ray, (a, c, b))
+    if distance != other:
+        # Both are means of the corners' depths with weights of one sign: γ(3) of the sum, γ(2) of the weights' sum and
+        # the quotient, of depths that are off by γ(2).
+        depths = Meeting(ray, (a, b, c)).depths
+        assert abs(Fraction(distance) - Fraction(other)) <= 2 * gamma(8) * max(map(abs, depths))
 
 
 @given(rays_near_triangles(), AXIS_MAPS, st.sampled_from([-20, -3, 1, 20]))
