@@ -16,8 +16,8 @@ run: .venv/run.stamp ## Judge the scene library on every renderer found here; wr
 test: lint ## Check style and types, and run all tests
 	.venv/bin/pytest -n $(WORKERS)
 
-test-deep: .venv/test.stamp ## Run the tests with 10,000 random examples a property
-	.venv/bin/pytest -n $(WORKERS) --hypothesis-profile deep
+test-deep: .venv/test.stamp ## Run the properties with 10,000 random examples each, and the long simulations
+	.venv/bin/pytest -n $(WORKERS) --dist worksteal --hypothesis-profile deep -m "hypothesis or simulation"
 
 lint: .venv/test.stamp ## Check style and types only
 	.venv/bin/ruff check .

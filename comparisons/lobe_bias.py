@@ -81,9 +81,11 @@ def _log_capital(
     variance = (lobes.expectation(along_way**2) - lobes.expectation(along_way) ** 2) / batch_samples
     # The most that y − Y can be: with black where δ is positive, with the bound where it is negative.
     loss = (way * np.where(way > 0, nearest, nearest - bound)).sum(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    # The limit to a stake that can lose next to nothing may be infinite.
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         # Kelly's rule to second order: this λ maximises the expectation of λ(Y − y) − λ²(Y − y)²/2. Rounding may leave
         # a variance just below 0.
         rate = np.minimum(gain / (np.maximum(variance, 0.0) + gain**2), LARGEST_STAKE / loss)
     gains = np.einsum("bpc,pc->bp", means, way) - (way * nearest).sum(axis=1)
-    return float(np.log1p(np.where(gain > 0, rate, 0.0) * gains).sum())
+    # Nothing on ways whose squares are subnormal: rounding could then lose more than the stake.
+    return float(np.log1p(np.where(gain >= np.finfo(np.float64).tiny, rate, 0.0) * gains).sum())

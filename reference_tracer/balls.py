@@ -170,9 +170,10 @@ def comparison_functions(decisions: Decisions) -> dict[str, Callable[[Any, Any],
 
 def decided_floor(x: Any, decisions: Decisions) -> int:
     """The whole number below x; where that is undecided, one of two in a row, since only its parity is ever used."""
-    if not x.is_finite():
+    ends: list[Any] = [end.floor().unique_fmpz() for end in (x.lower(), x.upper())] if x.is_finite() else [None]
+    if None in ends:  # unknown, or beyond what the precision can tell apart
         return int(decisions.next())
-    lowest, highest = (int(end.floor().unique_fmpz()) for end in (x.lower(), x.upper()))
+    lowest, highest = map(int, ends)
     if lowest == highest:
         return lowest
     return lowest + int(decisions.next())

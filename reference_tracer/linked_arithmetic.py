@@ -76,20 +76,33 @@ def _comparisons(decisions: Decisions) -> dict[str, Any]:
     """As for balls, but what the ranges leave open is looked at more closely; whole numbers are just compared."""
     plain = comparison_functions(decisions)
 
-    def closer(name: str) -> Any:
-        decide = plain[name]
-        # Asked of balls that cannot answer, it takes the next decision; so it is asked of the difference only.
-        certain = {"is_less": _less, "is_less_or_equal": _less_or_equal, "is_equal": _equal}[name]
+    def is_less(a: Any, b: Any) -> bool:
+        if isinstance(a, LinkedBall):
+            if a.range < b.range:
+                return True
+            if a.range >= b.range:
+                return False
+            a, b = difference(a, b), ZERO
+        return plain["is_less"](a, b)
 
-        def compare(a: Any, b: Any) -> bool:
-            if not isinstance(a, LinkedBall):
-                return bool(decide(a, b))
-            answer = certain(a.range, b.range)
-            return bool(decide(difference(a, b), ZERO)) if answer is None else answer
+    def is_less_or_equal(a: Any, b: Any) -> bool:
+        if isinstance(a, LinkedBall):
+            if a.range <= b.range:
+                return True
+            if a.range > b.range:
+                return False
+            a, b = difference(a, b), ZERO
+        return plain["is_less_or_equal"](a, b)
 
-        return compare
+    def is_equal(a: Any, b: Any) -> bool:
+        if isinstance(a, LinkedBall):
+            if a.range == b.range:
+                return True
+            if a.range != b.range:
+                return False
+            a, b = difference(a, b), ZERO
+        return plain["is_equal"](a, b)
 
-    is_less, is_less_or_equal, is_equal = closer("is_less"), closer("is_less_or_equal"), closer("is_equal")
     return {
         "is_less": is_less,
         "is_less_or_equal": is_less_or_equal,
@@ -98,18 +111,6 @@ def _comparisons(decisions: Decisions) -> dict[str, Any]:
         "is_equal": is_equal,
         "is_different": lambda a, b: not is_equal(a, b),
     }
-
-
-def _less(a: Any, b: Any) -> bool | None:
-    return True if a < b else False if a >= b else None
-
-
-def _less_or_equal(a: Any, b: Any) -> bool | None:
-    return True if a <= b else False if a > b else None
-
-
-def _equal(a: Any, b: Any) -> bool | None:
-    return True if a == b else False if a != b else None
 
 
 def _exp(x: LinkedBall) -> LinkedBall:

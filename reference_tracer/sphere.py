@@ -26,8 +26,8 @@ def sphere_distance(origin: Vector, direction: Vector, center: Vector, radius: S
     shifts the first in proportion to |f·d|, the second in proportion to that distance. Near a tangent, where it
     matters, the distance is r, and (f·d)² = |o-c|² - r²: so the first is better up to |o-c|² = 2·r², if its constant
     term does not cancel (sphere_constant), and the second beyond.
-    Valid where no square of a number, nor of a quotient |o-c|/|d|, overflows or vanishes; beyond, the result may be
-    NaN, which is nearer than nothing. An input of NaN is never hit.
+    Valid where no square of a number, nor of a quotient |o-c|/|d|, overflows or vanishes; beyond, the result may be 0,
+    or NaN, which is nearer than nothing, but never negative. An input that is NaN or infinite is never hit.
     """
     to_origin = subtract(origin, center)
     direction_squared = dot(direction, direction)
@@ -72,7 +72,8 @@ def root_inside(foot: Scalar, product: Scalar) -> Scalar:
 def distance_to_other_side(origin: Vector, direction: Vector, center: Vector) -> Scalar:
     """The root that remains for a ray that starts on the sphere: one root is 0, their sum is -2·(d·(o-c))/(d·d).
 
-    Infinity for a ray that leaves outward. This excludes the starting point exactly, without an epsilon.
+    Infinity for a ray that leaves outward. This excludes the starting point exactly, without an epsilon. With an input
+    that is NaN or infinite nothing is hit: the result is NaN or infinity.
     """
     half_linear = dot(direction, subtract(origin, center))
     if half_linear >= 0.0:
@@ -81,5 +82,5 @@ def distance_to_other_side(origin: Vector, direction: Vector, center: Vector) ->
 
 
 def sphere_normal(point: Vector, center: Vector, radius: Scalar) -> Vector:
-    """The outward unit normal at a point of the sphere."""
+    """The outward unit normal at a point of the sphere, whose radius is not 0; NaN where an input is NaN."""
     return scale(subtract(point, center), 1.0 / radius)

@@ -30,9 +30,12 @@ def triangle_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c
     shear_x = ray[0] / ray[2]
     shear_y = ray[1] / ray[2]
     to_corner = subtract(a, origin)
-    ax, ay = sheared(turned(to_corner, axis), shear_x, shear_y)
-    bx, by = sheared(turned(subtract(b, origin), axis), shear_x, shear_y)
-    cx, cy = sheared(turned(subtract(c, origin), axis), shear_x, shear_y)
+    to_a = turned(to_corner, axis)
+    to_b = turned(subtract(b, origin), axis)
+    to_c = turned(subtract(c, origin), axis)
+    ax, ay = sheared(to_a, shear_x, shear_y)
+    bx, by = sheared(to_b, shear_x, shear_y)
+    cx, cy = sheared(to_c, shear_x, shear_y)
     u = cx * by - cy * bx
     v = ax * cy - ay * cx
     w = bx * ay - by * ax
@@ -40,13 +43,30 @@ def triangle_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c
         return inf
     # Not from the corners' depths, whose mean loses what a far corner rounds: of a floor the plane's distance is exact.
     normal = cross(subtract(b, a), subtract(c, a))
+    area = u + v + w
+    if area == 0.0 or (normal[0] == 0.0 and normal[1] == 0.0 and normal[2] == 0.0):
+        return inf
+    depths = (to_a[2] / ray[2], to_b[2] / ray[2], to_c[2] / ray[2])
     determinant = dot(direction, normal)
     if determinant == 0.0:
-        return inf
-    distance = dot(to_corner, normal) / determinant
+        distance = dot((u, v, w), depths) / area
+    else:
+        distance = between(dot(to_corner, normal) / determinant, depths)
     if distance > 0.0:
         return distance
     return inf
+
+
+def between(distance: Scalar, depths: Vector) -> Scalar:
+    """The distance, but no nearer than the nearest corner and no farther than the farthest.
+
+    Rounding may put the plane of a triangle seen edge on anywhere, even behind the ray, or along it; a ray would then
+    pass between that triangle and its neighbour.
+    """
+    nearest = min(depths[0], depths[1])
+    farthest = max(depths[0], depths[1])
+    distance = min(distance, max(farthest, depths[2]))
+    return max(distance, min(nearest, depths[2]))
 
 
 def longest_axis(direction: Vector) -> int:

@@ -11,6 +11,7 @@ import pytest
 from comparisons.cell import CELL_FILE, CellPlace, Evidence, run_cell
 from comparisons.feasible_set import feasible_set
 from comparisons.images import read_image
+from comparisons.judgement import UNJUDGED
 from comparisons.lobes import find_lobes
 from comparisons.pixel_evidence import pixel_evidence, read_pixel_evidence
 from comparisons.renderer import FirstHits, Rays, RendererError, Rendering
@@ -246,6 +247,31 @@ def test_a_noisy_image_of_which_nothing_can_be_judged_fails(tmp_path: Path) -> N
     cell = run_cell(PLACE, Pretender(noisy(0.0, "glass")), 1, unjudged, tmp_path)
     assert cell.verdict == Verdict.FAIL
     assert "no pixel could be judged" in cell.reason
+
+
+@pytest.mark.parametrize(("factor", "failing_pixels"), [(1.0, 0), (100.0, 1)])
+def test_an_unjudged_pixel_of_a_noisy_image_is_held_to_the_brightest_there_can_be(
+    factor: float, failing_pixels: int, tmp_path: Path
+) -> None:
+    whole = evidence("glass")
+    low, high = whole.feasible.low.copy(), whole.feasible.high.copy()
+    low[0, 0] = high[0, 0] = np.nan  # a corner that looks past the glass
+    unjudged = replace(whole, feasible=replace(whole.feasible, low=low, high=high))
+
+    def answer(scene: Scene, folder: Path) -> Rendering:
+        rendering = noisy(0.0, "glass")(scene, folder)
+        assert rendering.batch_means is not None
+        rendering.batch_means[:, 0, 0] *= np.float32(factor)
+        return rendering
+
+    cell = run_cell(PLACE, Pretender(answer), 1, unjudged, tmp_path)
+    assert cell.judgement is not None
+    assert cell.images is not None
+    assert (cell.judgement.unjudged, cell.judgement.failing) == (1, failing_pixels)
+    assert cell.verdict == (Verdict.FAIL if failing_pixels else Verdict.PASS)
+    assert cell.reason.endswith("(1 not judged)")
+    distance = read_image(tmp_path / cell.images.tolerances)[0, 0]
+    assert (distance.max() > 1) if failing_pixels else (distance == UNJUDGED).all()
 
 
 @pytest.mark.parametrize("source", ["small", "my scenes/it's; rm -rf $HOME.json", "a\nb.json"])

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
@@ -88,7 +88,6 @@ IMAGES = arrays.arrays(np.float32, (2, 3, 3), elements=st.floats(0, 8, width=32)
 
 
 @pytest.mark.usefixtures("without_pictures")
-@settings(max_examples=50)
 @given(IMAGES, IMAGES)
 def test_numeric_measures_obey_their_definitions(render, truth):
     values = compute_metrics(render, truth)

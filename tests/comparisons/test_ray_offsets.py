@@ -33,7 +33,7 @@ SHORTENING = 2.0**-10
 # Of the angle between ray and normal: what grazes is another test's.
 SMALLEST_COSINE = 0.01
 # The precision is the same in all examples, so that it does not matter that the fixture runs once for all of them.
-with_fixture = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=50)
+with_fixture = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 pytestmark = pytest.mark.usefixtures("keep_precision")
 
 

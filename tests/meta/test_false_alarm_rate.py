@@ -46,6 +46,7 @@ def test_right_renderers_of_made_up_images_fail_no_more_often_than_stated(sample
     assert_no_more_alarms_than_stated(p_values)
 
 
+@pytest.mark.simulation
 def test_right_renderers_of_the_glass_scenes_fail_no_more_often_than_stated():
     rng = np.random.default_rng(3)
     p_values = []

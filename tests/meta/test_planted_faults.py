@@ -118,10 +118,10 @@ def _rendered(scene_name: str, judge: tuple[str, str]) -> Rendering:
 
 
 def _small(scene_name: str) -> Scene:
-    """The scene with a third of the pixels a side, which is enough to show these faults; noisy scenes are small."""
+    """The scene with a third of the pixels a side, half for noisy ones: enough to show these faults."""
     scene = open_scene(scene_name)
     camera = scene.camera
-    share = 1 if any(material.dielectric for material in scene.materials.values()) else 3
+    share = 2 if any(material.dielectric for material in scene.materials.values()) else 3
     smaller = camera.model_copy(update={"width": camera.width // share, "height": camera.height // share})
     return scene.model_copy(update={"camera": smaller})
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import permutations, product
-from math import cos, sin, sqrt, tau, ulp
+from math import cos, inf, nan, sin, sqrt, tau, ulp
 from typing import Any, NamedTuple
 
 from hypothesis import strategies as st
@@ -151,7 +151,7 @@ def rays_near_spheres() -> st.SearchStrategy[tuple[Ray, Sphere]]:
     return st.one_of(untidy_rays_near_spheres(), rays_close_to_spheres(), tidy_rays_near_spheres())
 
 
-SIDES = st.one_of(st.sampled_from([1.0, 1e-3, 30.0, 0.0]), st.floats(1e-3, 3.0))
+SIDES = st.one_of(st.sampled_from([1.0, 1e-3, 30.0]), st.floats(1e-3, 3.0))
 
 
 @st.composite
@@ -161,7 +161,7 @@ def triangles(draw: st.DrawFn) -> Corners:
     a = draw(vectors(scale))
     along = draw(directions())
     across = combined(draw(perpendiculars(along)), along, draw(st.sampled_from([0.0, 0.5, -3.0])))
-    width, height = draw(SIDES) * scale, draw(SIDES) * scale
+    width, height = draw(SIDES) * scale, draw(SIDES) * scale * (draw(st.integers(0, 15)) != 15)
     return a, combined(a, along, width), combined(a, across, height)
 
 
@@ -170,6 +170,11 @@ PARTS_OF_EDGES = st.one_of(st.sampled_from([0.25, 0.0, 1.0, 0.5]), st.floats(0.0
 INSIDE = st.builds(lambda u, v: (u, (1.0 - u) * v), PARTS_OF_EDGES, PARTS_OF_EDGES)
 BESIDE = st.sampled_from([-0.25, 2.0**-50, -(2.0**-50), 1.25, 0.5])
 ANYWHERE = st.one_of(INSIDE, st.tuples(BESIDE, BESIDE))
+# Beside the edges by little, but mostly by more than rounding: what is hit is then no matter of luck.
+CLEAR_PARTS = st.sampled_from([0.25, 0.5, 2.0**-40, -(2.0**-40), 2.0**-20, -(2.0**-20), 0.75, -0.25, 1.0 - 2.0**-40])
+CLEAR_OF_EDGES = st.one_of(
+    st.tuples(CLEAR_PARTS, CLEAR_PARTS), st.builds(lambda u, v: (u, (1.0 - u) * v), *[st.floats(1e-6, 1.0 - 1e-6)] * 2)
+)
 
 
 @st.composite
@@ -188,7 +193,7 @@ def rays_near_triangles(
     draw: st.DrawFn, positions: st.SearchStrategy[tuple[float, float]] = ANYWHERE
 ) -> tuple[Ray, Corners]:
     """Aimed at a point of the triangle's plane, from either side, or away from it."""
-    if draw(st.integers(0, 2)) == 2:
+    if draw(st.integers(0, 3)) == 3:
         return draw(tidy_rays_near_triangles())
     a, b, c = draw(triangles())
     u, v = draw(positions)
@@ -207,7 +212,8 @@ Fan = tuple[Vector, ...]
 def rays_at_fans(draw: st.DrawFn) -> tuple[Ray, Fan]:
     """At the hub, at a spoke, or between spokes of a fan of triangles that surrounds the point.
 
-    Seen along the ray the rim runs around that point at a distance, so that the ray meets one of the triangles.
+    Seen along the ray the rim runs around that point at a distance, so that the ray meets one of the triangles; some of
+    its corners may be far behind, which is no matter of where they are seen, and such triangles are seen edge on.
     """
     scale = draw(SCALES)
     hub = draw(vectors(scale))
@@ -227,11 +233,16 @@ def rays_at_fans(draw: st.DrawFn) -> tuple[Ray, Fan]:
     tilt = draw(st.sampled_from([0.0, 1.0, -3.0]))
     toward = combined(combined((0.0, 0.0, 0.0), axis, draw(SIGNS)), first, tilt)
     away = scale * draw(st.sampled_from([1.0, 0.37, 20.0]))
+    rim = [combined(corner, toward, scale * draw(st.sampled_from([0.0, 1.0, 1e2, 1e4]))) for corner in rim]
     return Ray(combined(target, toward, -away), toward), (hub, *rim, rim[0])
 
 
 # Where between the faces of a box.
 BOX_PARTS = st.one_of(st.sampled_from([0.5, 0.0, 1.0, 1.5, -0.5, 1.0 + 2.0**-50]), st.floats(0.0, 1.0))
+
+# With these, squares and products overflow, vanish or are no numbers.
+STRANGE = st.sampled_from([0.0, -0.0, 1.0, -2.5, 5e-324, -1e-310, 1e-170, 1e170, -1.7e308, inf, -inf, nan])
+STRANGE_VECTORS = st.tuples(STRANGE, STRANGE, STRANGE)
 
 # Rational numbers with small denominators, negative ones and 0 too.
 SMALL_FRACTIONS = st.builds(Fraction, st.integers(-12, 12), st.integers(1, 12))

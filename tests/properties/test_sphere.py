@@ -1,8 +1,10 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import inf
+from math import inf, isfinite, isnan
+from typing import Any
 
+import numpy as np
 from hypothesis import assume, given, target
 from hypothesis import strategies as st
 
@@ -12,13 +14,16 @@ from tests.properties.exact import dot, exact, gamma, length, minus, plus, root_
 from tests.properties.strategies import (
     AXIS_MAPS,
     SMALL_FRACTIONS,
+    STRANGE,
+    STRANGE_VECTORS,
     Ray,
     Sphere,
+    Vector,
     mapped,
     rational_unit_vectors,
     rays_near_spheres,
 )
-from tests.reference_tracer.kernels import exact_kernel
+from tests.reference_tracer.kernels import exact_kernel, numpy_kernel
 from tests.reproduction import note_case
 
 
@@ -198,3 +203,37 @@ def test_a_ray_reversed_at_the_other_side_comes_back_to_its_start(case: tuple[Ra
     doubt = 2 * (2 * gamma(9) * (arm + moved) + moved) / length(direction) * (1 + gamma(9))
     if doubt < Fraction(there):  # else the way back may be taken for a ray that leaves
         assert abs(Fraction(back) - Fraction(there)) <= doubt
+
+
+def strange(*vectors: Vector) -> tuple[Any, ...]:
+    """In NumPy's numbers, which divide by zero without an error, as compiled ones do."""
+    return tuple(tuple(map(np.float64, vector)) for vector in vectors)
+
+
+@given(STRANGE_VECTORS, STRANGE_VECTORS, STRANGE_VECTORS, STRANGE)
+def test_whatever_the_numbers_are_no_distance_is_negative_and_what_is_no_number_is_not_hit(
+    origin: Vector, direction: Vector, center: Vector, radius: float
+) -> None:
+    note_case(origin=origin, direction=direction, center=center, radius=radius)
+    numbers = strange(origin, direction, center)
+    with np.errstate(all="ignore"):
+        distance = numpy_kernel(np.float64).sphere_distance(*numbers, np.float64(radius))
+        other_side = numpy_kernel(np.float64).distance_to_other_side(*numbers)
+    assert not distance < 0
+    assert not other_side < 0
+    if not all(map(isfinite, (*origin, *direction, *center))):
+        # Neither is less than the infinity of what has been met so far.
+        assert not other_side < inf
+        assert not distance < inf
+    if not isfinite(radius):
+        assert not distance < inf
+
+
+@given(STRANGE_VECTORS, STRANGE_VECTORS, STRANGE.filter(bool))
+def test_a_normal_of_what_is_not_a_number_is_none(point: Vector, center: Vector, radius: float) -> None:
+    note_case(point=point, center=center, radius=radius)
+    with np.errstate(all="ignore"):
+        normal = numpy_kernel(np.float64).sphere_normal(*strange(point, center), np.float64(radius))
+    for part, on_sphere, middle in zip(normal, point, center, strict=True):
+        if any(map(isnan, (on_sphere, middle, radius))):
+            assert isnan(part)

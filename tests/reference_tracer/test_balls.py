@@ -251,3 +251,10 @@ def test_each_operation_widens_a_rounded_ball_by_one_roundoff(bits: int) -> None
         assert float(ball.rad()) >= float(abs(ball.mid())) * 2.0**-bits * (1 - 2.0**-20)
     assert functions["rounded"](7) == 7
     assert isinstance(functions["rounded"](7), int)
+
+
+@pytest.mark.parametrize("x", [arb(2) ** 200 + arb(1) / 3, arb(0, 1e300), arb("nan"), arb(2) ** 80 / 3])
+def test_a_floor_beyond_the_precision_is_either_even_or_odd(x: Any) -> None:
+    decisions = Decisions()
+    floor = functions(53, decisions)["floor"]
+    assert {outcome % 2 for outcome in every_outcome(lambda: floor(x), decisions, 2)} == {0, 1}

@@ -3,9 +3,10 @@ from __future__ import annotations
 from fractions import Fraction
 from math import inf
 
+import numpy as np
 import pytest
 
-from reference_tracer.bounding_volume import box_is_missed, rounding_allowance
+from reference_tracer.bounding_volume import box_is_missed, farthest, rounding_allowance
 
 LOW, HIGH = (-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)
 ALONG_X = (1.0, 0.0, 0.0)
@@ -36,6 +37,13 @@ def test_a_flat_box_is_touched() -> None:
     assert not box_is_missed((-3.0, 0.0, 0.0), ALONG_X, (0.0, -1.0, -1.0), (0.0, 1.0, 1.0), inf)
 
 
-def test_the_allowance_covers_three_roundings() -> None:
-    unit_roundoff = Fraction(1, 2**53)
-    assert Fraction(rounding_allowance()) >= 1 + 2 * 3 * unit_roundoff / (1 - 3 * unit_roundoff)
+def test_the_allowance_covers_ten_roundings_of_float32() -> None:
+    unit_roundoff = Fraction(1, 2**24)
+    allowance = Fraction(float(np.float32(rounding_allowance())))
+    assert 10 * unit_roundoff / (1 - 10 * unit_roundoff) <= allowance <= 11 * unit_roundoff
+
+
+def test_the_farthest_coordinate_is_that_of_a_corner_in_front_or_behind() -> None:
+    assert farthest((-3.0, -1.0, 0.5), (-2.0, 1.5, 2.0)) == 3.0
+    assert farthest((-3.0, -1.0, 0.5), (-2.0, 4.5, 2.0)) == 4.5
+    assert farthest((1.0, 1.0, -7.0), (2.0, 4.5, -6.0)) == 7.0

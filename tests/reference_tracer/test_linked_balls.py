@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from flint import arb, ctx
-from hypothesis import assume, event, given, settings
+from hypothesis import assume, event, given
 from hypothesis import strategies as st
 
 from reference_tracer.balls import Decisions
@@ -129,7 +129,6 @@ def test_a_rotation_repeated_a_hundred_times_grows_the_error_in_proportion() -> 
 
 @pytest.mark.parametrize("bits", [11, 24, 53])
 @given(value=st.floats(1e-6, 1e6))
-@settings(max_examples=30)
 def test_the_width_is_a_roundoff_an_operation_in_every_precision(bits: int, value: float) -> None:
     made = linked_arithmetic(bits, Decisions())
     root = made.functions["sqrt"](made.number(value))
