@@ -18,7 +18,7 @@ def one_ray(origin, direction):
 @given(COORDINATES, DIRECTIONS, COORDINATES, st.floats(0.5, 4))
 def test_a_sphere_is_hit_where_its_equation_holds_and_nowhere_before(origin, direction, center, radius):
     unit = np.array(direction) / np.linalg.norm(direction)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):  # as the renderer does
         hits = intersect_sphere(one_ray(origin, unit), np.array(center), radius)
     steps = np.linspace(0, 40, 400)  # no point of the sphere is farther than 18 from the origin
     height = np.linalg.norm(np.array(origin) + steps[:, None] * unit - center, axis=-1) - radius
@@ -45,7 +45,7 @@ def test_a_sphere_is_hit_where_its_equation_holds_and_nowhere_before(origin, dir
 def test_triangles_on_an_integer_grid_are_hit_exactly_where_barycentric_coordinates_say(vertices, origin, direction):
     # Directions are left unnormalised: in integers every sign is exact, ties on edges included.
     v0, v1, v2, start, ahead = (np.array(vector, dtype=np.int64) for vector in (*vertices, origin, direction))
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):  # as the renderer does
         hits = intersect_triangle(one_ray(start, ahead), np.array(vertices, dtype=float))
     # Cramer's rule for start + t·ahead = v0 + b·(v1 - v0) + c·(v2 - v0), every term times the determinant.
     columns = (-ahead, v1 - v0, v2 - v0)
@@ -67,5 +67,5 @@ def test_triangles_on_an_integer_grid_are_hit_exactly_where_barycentric_coordina
 
 def test_a_triangle_without_area_is_never_hit():
     line = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 2.0, 0.0]])
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):  # as the renderer does
         assert not intersect_triangle(one_ray((1, 1, 5), (0, 0, -1)), line).is_hit.any()
