@@ -54,7 +54,7 @@ def keep_precision() -> Iterator[None]:
 
 def model_of(policy: RayOffset, numbers: str) -> ErrorModel:
     # One bit for the last place of the mathematical library.
-    return ErrorModel("simulated", BITS[numbers] - 1, policy, 2.0**-8, OutputModel("float64"))
+    return ErrorModel("simulated", BITS[numbers] - 1, policy, 2.0**-8, output=OutputModel("float64"))
 
 
 def rendered(scene_name: str, policy: RayOffset, numbers: str) -> NDArray[np.float64]:
