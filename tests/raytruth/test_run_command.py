@@ -3,6 +3,7 @@ from __future__ import annotations
 import json
 import signal
 import threading
+import time
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
@@ -219,6 +220,8 @@ def test_an_interrupted_run_can_be_resumed(
         ident = threading.main_thread().ident
         assert ident is not None
         signal.pthread_kill(ident, signal.SIGINT)  # as Ctrl-C does
+        # Until the main thread has heard of it where it waits: elsewhere, as in a callback, Python may drop it.
+        time.sleep(0.2)
         return truthful(scene, folder)
 
     pretender.answer = interrupted
