@@ -127,8 +127,10 @@ def _window(numbers: Random, constants: dict[str, make.Triple], convention: str)
     def radiance(x: float, y: float) -> Vector:
         _, direction = camera_ray(scene.camera, x, y)
         mirrored = gradient(sky["bottom"], sky["top"], direction[1])
-        reach = -below / direction[2] if direction[2] > 0 else mp.inf
-        if reach * max(abs(direction[0]), abs(direction[1])) > 98:  # past the surface's edge
+        if direction[2] <= 0:
+            return mirrored
+        reach = -below / direction[2]
+        if any(abs(camera[axis] + reach * direction[axis]) > 100 for axis in (0, 1)):  # past the surface's edge
             return mirrored
         reflected, transmitted = WHITE, None
         if is_in_window(x, y):
