@@ -64,6 +64,8 @@ class ErrorModel:
     ray_offset: RayOffset = field(default_factory=RayOffset)
     shadow_shortening: float = 0.0
     """Shadow rays end at this fraction of the light's distance before the light."""
+    triangle_test: Literal["watertight", "moeller-trumbore", "pluecker"] = "watertight"
+    """Which formula decides whether a ray meets a triangle: the truth's own, or one of triangle_tests.py."""
     output: OutputModel = field(default_factory=OutputModel)
     random_choices: str = ""
     """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""
@@ -74,6 +76,7 @@ class ErrorModel:
         return {
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
+            "triangles": f"{self.triangle_test} test",
             "rays that leave a surface start": self.ray_offset.in_words(),
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",
             "output": self.output.in_words(),

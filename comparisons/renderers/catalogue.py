@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from comparisons.renderers.closed_form import ClosedFormRenderer
+from comparisons.renderers.embree import embree, embree_robust
 from comparisons.renderers.mitsuba import mitsuba_llvm, mitsuba_scalar
 from comparisons.renderers.reference import ReferenceTracer
 from scenes.wording import quoted, suggestion
@@ -21,7 +22,14 @@ class UnknownRendererError(Exception):
 
 def all_renderers() -> dict[str, Renderer]:
     """Each renderer by its name, available here or not."""
-    renderers: tuple[Renderer, ...] = (mitsuba_scalar(), mitsuba_llvm(), ClosedFormRenderer(), ReferenceTracer())
+    renderers: tuple[Renderer, ...] = (
+        mitsuba_scalar(),
+        mitsuba_llvm(),
+        embree(),
+        embree_robust(),
+        ClosedFormRenderer(),
+        ReferenceTracer(),
+    )
     return {renderer.name: renderer for renderer in renderers}
 
 
