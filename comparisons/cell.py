@@ -168,6 +168,10 @@ def _check_sizes(rendering: Rendering, gives: str, truth: NDArray[np.float64]) -
         raise RendererError(f"expected {gives}, got nothing")
     if rendering.image is not None and rendering.image.shape != truth.shape:
         raise RendererError(f"expected an image of shape {truth.shape}, got {rendering.image.shape}")
+    if rendering.image is not None and np.isnan(rendering.image).any():
+        y, x = np.argwhere(np.isnan(rendering.image).any(axis=2))[0]
+        count = int(np.isnan(rendering.image).any(axis=2).sum())
+        raise RendererError(f"{count} pixels of its image are not a number, the first of them ({x}, {y})")
     if rendering.first_hits is not None:
         for name, values in vars(rendering.first_hits).items():
             expected = truth.shape if name in {"position", "normal"} else truth.shape[:2]

@@ -107,13 +107,21 @@ def test_an_image_of_another_size_is_an_error(shape: tuple[int, ...], tmp_path: 
     assert "(4, 6, 3)" in cell.reason
 
 
-def test_an_image_of_what_is_no_number_fails_and_can_be_read_back(tmp_path: Path) -> None:
-    cell = cell_of(tmp_path, lambda *_: Rendering(np.full((4, 6, 3), np.nan, dtype=np.float32), 0.0))
+def test_an_image_with_what_is_no_number_is_an_error_and_can_be_read_back(tmp_path: Path) -> None:
+    image = np.ones((4, 6, 3), dtype=np.float32)
+    image[2, 3, 1] = image[3, 0] = np.nan
+    cell = cell_of(tmp_path, lambda *_: Rendering(image, 0.0))
+    assert cell.verdict == Verdict.ERROR
+    assert cell.reason == "2 pixels of its image are not a number, the first of them (3, 2)"
+    text = (tmp_path / PLACE.folder / CELL_FILE).read_text()
+    assert Cell.model_validate_json(text).model_dump_json() == cell.model_dump_json()
+
+
+def test_an_infinite_image_fails(tmp_path: Path) -> None:
+    cell = cell_of(tmp_path, lambda *_: Rendering(np.full((4, 6, 3), np.inf, dtype=np.float32), 0.0))
     assert cell.verdict == Verdict.FAIL
     assert cell.judgement is not None
     assert cell.judgement.failing == 24
-    text = (tmp_path / PLACE.folder / CELL_FILE).read_text()
-    assert Cell.model_validate_json(text).model_dump_json() == cell.model_dump_json()
 
 
 def test_one_wrong_pixel_fails(tmp_path: Path) -> None:
