@@ -22,7 +22,7 @@ def read_arrays(path: Path, shapes: Mapping[str, tuple[int, ...]], program: str)
         # NumPy leaves a file open that it opened by itself and that is no archive.
         with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             arrays = dict(archive)
-    except (OSError, ValueError, EOFError, AttributeError, zipfile.BadZipFile) as error:
+    except (OSError, ValueError, EOFError, TypeError, zipfile.BadZipFile) as error:
         raise RendererError(f"{program}'s {path.name} cannot be read: {error}") from error
     for name, shape in shapes.items():
         if name not in arrays or arrays[name].shape != shape:
