@@ -33,7 +33,7 @@ clean: ## Remove the environment and all caches; results/ stays
 
 # The stamps: an environment is made again only when what it is made from has changed.
 .venv/run.stamp: pyproject.toml constraints.txt tools/make_environment.sh
-	@bash tools/make_environment.sh . libllvm19 povray
+	@bash tools/make_environment.sh '.[embree]' libllvm19 povray
 	@touch $@
 
 .venv/test.stamp: pyproject.toml constraints.txt tools/make_environment.sh

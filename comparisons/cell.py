@@ -21,6 +21,7 @@ from comparisons.judgement import (
     judgement_of,
     largest_error,
     verdict_of,
+    verdict_of_first_hits,
 )
 from comparisons.lobes import find_lobes
 from comparisons.pixel_evidence import PixelEvidence, pixel_evidence, write_pixel_evidence
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from comparisons.feasible_set import FeasibleSet
-    from comparisons.renderer import Rays, Renderer, Rendering
+    from comparisons.renderer import Image, Rays, Renderer, Rendering
     from scenes.scene import Scene
 
 CELL_FILE = "cell.json"
@@ -96,13 +97,29 @@ def run_cell(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidenc
 def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence, folder: Path) -> Cell:
     try:
         rendering = renderer.render(evidence.scene, place.integrator, depth, evidence.rays, folder)
-        _check_size(rendering, evidence.truth)
+        _check_sizes(rendering, _gives(renderer, place.integrator), evidence.truth)
     except RendererError as error:
         log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
         return Cell(**_names(place), version=place.version, verdict=Verdict.ERROR, reason=str(error), log=log)
-    judged = (_judge_exact if rendering.batch_means is None else _judge_noisy)(rendering, evidence)
-    verdict, reason = judged.verdict, judged.reason
     hits = None if rendering.first_hits is None else judge_first_hits(rendering.first_hits, evidence.feasible)
+    log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
+    if rendering.image is None:
+        assert hits is not None, "checked with the sizes"
+        verdict, reason = verdict_of_first_hits(hits)
+        return Cell(
+            **_names(place),
+            verdict=verdict,
+            reason=reason,
+            seconds=rendering.seconds,
+            version=place.version,
+            first_hits=hits,
+            log=log,
+        )
+    if rendering.batch_means is None:
+        judged = _judge_exact(rendering.image, evidence)
+    else:
+        judged = _judge_noisy(rendering.image, rendering.batch_means, rendering.samples, evidence)
+    verdict, reason = judged.verdict, judged.reason
     if hits is not None and hits.failing:
         verdict = Verdict.FAIL
         reason = f"{hits.failing} first hits lie outside their feasible sets; {reason}"
@@ -126,7 +143,7 @@ def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence
             feasible=f"{place.folder}/feasible.exr",
             variance=_write_variance(rendering, place, folder),
         ),
-        log=f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None,
+        log=log,
     )
 
 
@@ -141,9 +158,25 @@ def _names(place: CellPlace) -> dict[str, str]:
     }
 
 
-def _check_size(rendering: Rendering, truth: NDArray[np.float64]) -> None:
-    if rendering.image.shape != truth.shape:
+def _gives(renderer: Renderer, integrator: str) -> str:
+    return next(known.gives for known in renderer.integrators if known.name == integrator)
+
+
+def _check_sizes(rendering: Rendering, gives: str, truth: NDArray[np.float64]) -> None:
+    """Raises RendererError where what the integrator gives is missing, or of another size than the truth."""
+    if (rendering.image if gives == "image" else rendering.first_hits) is None:
+        raise RendererError(f"expected {gives}, got nothing")
+    if rendering.image is not None and rendering.image.shape != truth.shape:
         raise RendererError(f"expected an image of shape {truth.shape}, got {rendering.image.shape}")
+    if rendering.image is not None and np.isnan(rendering.image).any():
+        y, x = np.argwhere(np.isnan(rendering.image).any(axis=2))[0]
+        count = int(np.isnan(rendering.image).any(axis=2).sum())
+        raise RendererError(f"{count} pixels of its image are not a number, the first of them ({x}, {y})")
+    if rendering.first_hits is not None:
+        for name, values in vars(rendering.first_hits).items():
+            expected = truth.shape if name in {"position", "normal"} else truth.shape[:2]
+            if values.shape != expected:
+                raise RendererError(f"expected {name} of first hits of shape {expected}, got {values.shape}")
 
 
 @dataclass(frozen=True)
@@ -159,14 +192,14 @@ class _Judged:
     pixels: PixelEvidence
 
 
-def _judge_exact(rendering: Rendering, evidence: Evidence) -> _Judged:
+def _judge_exact(image: Image, evidence: Evidence) -> _Judged:
     feasible = evidence.feasible
-    judgement, nearest = judge_image(rendering.image, evidence.truth, feasible)
+    judgement, nearest = judge_image(image, evidence.truth, feasible)
     pixels = pixel_evidence(feasible.low, feasible.high, nearest.places, feasible.merged)
     return _Judged(judgement, None, *verdict_of(judgement), nearest.distances, pixels)
 
 
-def _judge_noisy(rendering: Rendering, evidence: Evidence) -> _Judged:
+def _judge_noisy(image: Image, batch_means: NDArray[np.float32], samples: int, evidence: Evidence) -> _Judged:
     """The mean of many samples against the hull of each pixel's feasible set."""
     bound = radiance_bound(evidence.scene)
     assert bound is not None, "comparability.py lets no stochastic scene through without a bound"
@@ -177,17 +210,16 @@ def _judge_noisy(rendering: Rendering, evidence: Evidence) -> _Judged:
     low, high = evidence.feasible.hull()
     low = np.where(unjudged[..., np.newaxis], 0.0, np.clip(low, 0.0, most))
     high = np.where(unjudged[..., np.newaxis], most, np.clip(high, 0.0, most))
-    assert rendering.batch_means is not None, "only noisy renderings are judged here"
     lobes = find_lobes(evidence.scene)
     first_hit_is_certain = (evidence.feasible.hit_primitives != UNUSED).sum(axis=2) == 1
     is_random = ~(lobes.sees_directly() & first_hit_is_certain)
-    outcome = compare_means(low, high, rendering.batch_means, rendering.samples, most, lobes, is_random)
+    outcome = compare_means(low, high, batch_means, samples, most, lobes, is_random)
     # Exponents of these probabilities grow with the square of the distance, so that this is a distance, too.
     with np.errstate(divide="ignore"):
         distances = np.sqrt(np.log(outcome.p_values) / np.log(SIGNIFICANCE))
     within_range = unjudged & (outcome.p_values >= SIGNIFICANCE).all(axis=2)
     distances = np.where(within_range[..., np.newaxis], UNJUDGED, distances)
-    judgement = judgement_of(distances.max(axis=2), rendering.image, evidence.truth, evidence.feasible)
+    judgement = judgement_of(distances.max(axis=2), image, evidence.truth, evidence.feasible)
     one_box = np.zeros(unjudged.shape, dtype=np.int64)
     pixels = pixel_evidence(low[:, :, np.newaxis], high[:, :, np.newaxis], one_box, evidence.feasible.merged)
     if unjudged.all():
@@ -195,7 +227,7 @@ def _judge_noisy(rendering: Rendering, evidence: Evidence) -> _Judged:
     verdict = Verdict.PASS if outcome.passes else Verdict.FAIL
     probability = f"the least likely mean has p = {outcome.test.smallest_p_value:.2g} after correction"
     limit = f"against a significance of {SIGNIFICANCE:g}"
-    reason = f"{probability}, {limit}, with {rendering.samples} samples a pixel{capped_in_words(judgement)}"
+    reason = f"{probability}, {limit}, with {samples} samples a pixel{capped_in_words(judgement)}"
     return _Judged(judgement, outcome.test, verdict, reason, distances, pixels)
 
 

@@ -17,6 +17,8 @@ def depth_or_reason(scene: Scene, renderer: Renderer, integrator: Integrator) ->
     refusal = renderer.refuses(scene)
     if refusal is not None:
         return refusal
+    if integrator.gives == "first hits":
+        return 0
     depth = comparable_depth(scene, integrator.light_paths, integrator.has_depth)
     if isinstance(depth, int) and renderer.is_stochastic(scene, integrator.name) and radiance_bound(scene) is None:
         return "its samples have no known bound, which the statistical test needs"

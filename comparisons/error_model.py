@@ -68,6 +68,8 @@ class ErrorModel:
     """What is nearer than this to a shadow ray's start, or to the light, may throw a shadow or none; 0: it does."""
     index_bits: int | None = None
     """Indices of refraction are rounded to this many bits when they are stored, if to fewer than all else."""
+    triangle_test: Literal["watertight", "moeller-trumbore", "pluecker"] = "watertight"
+    """Which formula decides whether a ray meets a triangle: the truth's own, or one of triangle_tests.py."""
     output: OutputModel = field(default_factory=OutputModel)
     random_choices: str = ""
     """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""
@@ -85,6 +87,7 @@ class ErrorModel:
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
+            "triangles": f"{self.triangle_test} test",
             "rays that leave a surface start": self.ray_offset.in_words(),
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",
             "what is near": f"nearer than {near}" if self.shadow_tolerance > 0.0 else "throws shadows as all else",

@@ -1,15 +1,18 @@
 """Running a program that may crash, hang, or fill memory and disk, without harm to us.
 
-The limits hold for the program and for whatever it starts. Only a descendant that opens a session of its own
-escapes being killed at the end; its memory and its files stay limited all the same.
+The limits hold for the program and for whatever it starts. A guard (isolation_guard.py) ends all its descendants,
+also those in sessions of their own, and when this process is killed, too.
 """
 
 from __future__ import annotations
 
+import contextlib
 import os
 import selectors
+import shutil
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 from typing import IO
@@ -26,9 +29,11 @@ _CHUNK_BYTES = 1 << 16
 _QUOTED_LINES = 3
 _QUOTED_CHARACTERS = 400
 
-# The shell sets the limits and then becomes the program, since limits set between fork and exec in Python
-# (`preexec_fn`) can deadlock when the caller has threads. Units: -v KiB, -f blocks of 512 bytes (POSIX).
-_LIMIT_AND_RUN = 'ulimit -c 0 && ulimit -v "$1" && ulimit -f "$2" && shift 2 && exec "$@"'
+# As long as a guard may take to end what it guards: it kills, and the kernel needs a moment to take memory back.
+_STOP_SECONDS = 10.0
+
+_GUARD = [sys.executable, "-I", "-S", str(Path(__file__).with_name("isolation_guard.py"))]
+_SCRATCH = "scratch"
 
 
 def run_isolated(
@@ -43,32 +48,74 @@ def run_isolated(
     """Run a command in a session of its own, in `folder`, with its standard output and error in `folder/log.txt`.
 
     `seconds` of wall-clock time, `memory_bytes` of address space per process, `output_bytes` of log, and `file_bytes`
-    per file that it writes. Its standard input is empty. When this returns or raises, the process and its group are
-    gone. Raises RendererError, in one sentence with the end of the log, unless it ends with exit status 0 within
-    the limits.
+    per file that it writes. Its standard input is empty, its temporary files are removed. When this returns or raises,
+    the process and all its descendants are gone. Raises RendererError, in one sentence with the end of the log, unless
+    it ends with exit status 0 within the limits and leaves no process behind; then what it wrote, but for the log, is
+    removed.
     """
-    limits = [str(memory_bytes // 1024), str(file_bytes // 512)]
     log_path = folder / LOG_FILE
-    with log_path.open("wb") as log:
-        process = subprocess.Popen(
-            ["/bin/sh", "-c", _LIMIT_AND_RUN, "sh", *limits, *command],
-            cwd=folder,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-        )
-        assert process.stdout is not None  # it was asked for above
-        with process.stdout as output:
+    before = set(folder.iterdir())
+    scratch = folder / _SCRATCH
+    scratch.mkdir()
+    try:
+        with log_path.open("wb") as log:
+            failure = _run_guarded(command, folder, log, seconds, output_bytes, [memory_bytes, file_bytes])
+        if failure:
+            for path in set(folder.iterdir()) - before - {log_path, scratch}:
+                _remove(path)
+            raise RendererError(f"{Path(command[0]).name} {failure}; {_end_of_log(log_path)}")
+    finally:
+        _remove(scratch)
+
+
+def _run_guarded(
+    command: list[str], folder: Path, log: IO[bytes], seconds: float, output_bytes: int, limits: list[int]
+) -> str | None:
+    """What went wrong, in a clause; None if nothing did."""
+    reader, writer = os.pipe()
+    with os.fdopen(reader, "rb") as status:
+        try:
+            guard = subprocess.Popen(
+                [*_GUARD, *(str(number) for number in (writer, *limits)), *command],
+                cwd=folder,
+                env={**os.environ, "TMPDIR": str((folder / _SCRATCH).resolve())},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                pass_fds=[writer],
+                start_new_session=True,
+            )
+        finally:
+            os.close(writer)
+        assert guard.stdout is not None  # it was asked for above
+        with guard.stdout as output:
             try:
-                limit_hit = _copy_until_exit(process.pid, output, log, seconds, output_bytes)
+                limit_hit = _copy_until_exit(guard.pid, output, log, seconds, output_bytes)
             finally:
-                # The leader is not reaped yet, so that its group's number cannot have passed to others.
-                os.killpg(process.pid, signal.SIGKILL)
-                process.wait()
-    failure = limit_hit or _describe_status(process.returncode)
-    if failure:
-        raise RendererError(f"{Path(command[0]).name} {failure}; {_end_of_log(log_path)}")
+                _end(guard)
+        return limit_hit or _describe_status(status.read().decode())
+
+
+def _end(guard: subprocess.Popen[bytes]) -> None:
+    """Have the guard end all that it guards, and see to it that it ends itself; nothing to do where it has ended."""
+    try:
+        # It is not reaped yet, so that neither its number nor its group's can have passed to others.
+        guard.send_signal(signal.SIGCONT)
+        guard.terminate()
+        guard.wait(_STOP_SECONDS)
+    except subprocess.TimeoutExpired:
+        pass
+    finally:
+        with contextlib.suppress(ProcessLookupError):  # the group is empty
+            os.killpg(guard.pid, signal.SIGKILL)
+        guard.wait()
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
 
 
 def _copy_until_exit(pid: int, output: IO[bytes], log: IO[bytes], seconds: float, output_bytes: int) -> str | None:
@@ -110,15 +157,25 @@ def _read_available(output: IO[bytes]) -> bytes | None:
         return None
 
 
-def _describe_status(status: int) -> str | None:
-    if status == 0:
-        return None
-    if status > 0:
-        return f"ended with exit status {status}"
+def _describe_status(status: str) -> str | None:
+    """What a guard's words mean, as a clause; None if all went well."""
+    if not status:
+        return "ended the process that guards it"
+    returncode, left = (int(number) for number in status.split())
+    if returncode > 0:
+        return f"ended with exit status {returncode}"
+    if returncode < 0:
+        return f"was ended by signal {_signal_name(-returncode)}"
+    if left:
+        return f"left {left} {'process' if left == 1 else 'processes'} behind"
+    return None
+
+
+def _signal_name(number: int) -> str:
     try:
-        return f"was ended by signal {signal.Signals(-status).name}"
+        return signal.Signals(number).name
     except ValueError:  # real-time signals have numbers only
-        return f"was ended by signal {-status}"
+        return str(number)
 
 
 def _end_of_log(path: Path) -> str:

@@ -134,6 +134,15 @@ def judge_first_hits(hits: FirstHits, feasible: FeasibleSet) -> FirstHitComparis
     )
 
 
+def verdict_of_first_hits(hits: FirstHitComparison) -> tuple[Verdict, str]:
+    """Pass if every judged first hit lies in its feasible set, and at least one could be judged."""
+    if hits.compared == 0:
+        return Verdict.FAIL, "no first hit could be judged: this arithmetic leaves everything open"
+    if hits.failing:
+        return Verdict.FAIL, f"{hits.failing} of {hits.compared} first hits lie outside their feasible sets"
+    return Verdict.PASS, f"all {hits.compared} first hits lie in their feasible sets"
+
+
 def _box_distances(
     values: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> NDArray[np.float64]:

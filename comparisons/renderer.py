@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,9 +45,10 @@ class FirstHits:
 
 @dataclass(frozen=True)
 class Rendering:
-    """One image of one integrator. A stochastic renderer gives the mean over all samples and the batch means."""
+    """What one integrator gives. A stochastic renderer gives the mean over all samples and the batch means."""
 
-    image: Image
+    image: Image | None
+    """None, with first hits, from an integrator that gives first hits only."""
     seconds: float
     first_hits: FirstHits | None = None
     samples: int = 1
@@ -63,6 +64,8 @@ class Integrator:
     light_paths: str
     """A regular expression over Heckbert's letters; `{depth}` stands for a limit on the number of bounces."""
     has_depth: bool = False
+    gives: Literal["image", "first hits"] = "image"
+    """First hits alone need no light: they can be compared on every scene, whatever the light paths."""
 
 
 class Renderer(Protocol):

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from flint import arb
 
 from comparisons.ray_offsets import offset_constants, offset_overrides
+from comparisons.triangle_tests import triangle_test_constants, triangle_test_overrides
 from reference_tracer.arithmetic import FLOAT
 from reference_tracer.balls import Decisions, rounded_ball_arithmetic
 from reference_tracer.linked_arithmetic import linked_arithmetic
@@ -56,8 +57,8 @@ class PlainRays:
 
     def __init__(self, scene: Scene, error_model: ErrorModel, overrides: Overrides | None = None) -> None:
         self.decisions = Decisions()
-        arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions, offset_constants(error_model))
-        self.prepared = prepare(scene, arithmetic, {**offset_overrides(error_model), **(overrides or {})})
+        arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model))
+        self.prepared = prepare(scene, arithmetic, {**_overrides(error_model), **(overrides or {})})
         store_indices(self.prepared, error_model.index_bits)
         kernel = self.prepared.kernel
         kernel.nearest_hit = RememberedHit(kernel.nearest_hit, self.decisions)
@@ -84,8 +85,8 @@ class LinkedRays:
 
     def __init__(self, scene: Scene, error_model: ErrorModel, overrides: Overrides | None = None) -> None:
         self.decisions = Decisions()
-        arithmetic = linked_arithmetic(error_model.precision_bits, self.decisions, offset_constants(error_model))
-        self.prepared = prepare(scene, arithmetic, {**offset_overrides(error_model), **(overrides or {})})
+        arithmetic = linked_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model))
+        self.prepared = prepare(scene, arithmetic, {**_overrides(error_model), **(overrides or {})})
         store_indices(self.prepared, error_model.index_bits)
         frame = self.prepared.kernel.camera_frame(self.prepared.data)
         numbers = iter(condensed([number for vector in frame for number in vector]))
@@ -154,6 +155,15 @@ def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int
         return NOTHING, ()
     point = kernel.along(origin, direction, distance)
     return primitive, (distance, *point, *kernel.surface_normal(data, primitive, point))
+
+
+def _overrides(error_model: ErrorModel) -> Overrides:
+    """What this renderer computes otherwise than the truth does."""
+    return {**offset_overrides(error_model), **triangle_test_overrides(error_model)}
+
+
+def _constants(error_model: ErrorModel) -> dict[str, Any]:
+    return {**offset_constants(error_model), **triangle_test_constants()}
 
 
 def _condensed_ray(origin: Any, direction: Any) -> tuple[Any, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from comparisons.renderers.closed_form import ClosedFormRenderer
+from comparisons.renderers.embree import embree, embree_robust
 from comparisons.renderers.mitsuba import mitsuba_llvm, mitsuba_scalar
 from comparisons.renderers.povray import PovRay
 from comparisons.renderers.reference import ReferenceTracer
@@ -26,6 +27,8 @@ def all_renderers() -> dict[str, Renderer]:
         mitsuba_scalar(),
         mitsuba_llvm(),
         PovRay(),
+        embree(),
+        embree_robust(),
         ClosedFormRenderer(),
         ReferenceTracer(),
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import sys
-import zipfile
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -14,6 +13,7 @@ from comparisons.error_model import ErrorModel, RayOffset
 from comparisons.isolation import run_isolated
 from comparisons.renderer import FirstHits, Integrator, Rays, Renderer, RendererError, Rendering
 from comparisons.renderers.mitsuba_job import JOB_FILE, RAYS_FILE, RESULT_FILE, Job
+from comparisons.worker_results import read_arrays
 from scenes.camera import OrthographicCamera
 from scenes.exporters import mitsuba as exporter
 from scenes.exporters.mitsuba_limits import refuses, reversed_primitives
@@ -158,14 +158,7 @@ def _read_rendering(folder: Path, size: tuple[int, ...], job: Job) -> Rendering:
     expected = {name: (*size, *tail) for name, tail in RESULT_SHAPES.items()}
     if job.batches:
         expected["batch_means"] = (job.batches, *size, 3)
-    try:
-        with np.load(folder / RESULT_FILE, allow_pickle=False) as archive:
-            result = dict(archive)
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
-        raise RendererError(f"Mitsuba's {RESULT_FILE} cannot be read: {error}") from error
-    for name, shape in expected.items():
-        if name not in result or result[name].shape != shape:
-            raise RendererError(f"Mitsuba's {RESULT_FILE} lacks {name} of shape {shape}")
+    result = read_arrays(folder / RESULT_FILE, expected, "Mitsuba")
     return Rendering(
         image=result["image"],
         seconds=float(result["seconds"]),

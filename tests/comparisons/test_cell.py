@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from comparisons.cell import CELL_FILE, CellPlace, Evidence, run_cell
-from comparisons.feasible_set import feasible_set
+from comparisons.feasible_set import UNUSED, feasible_set
 from comparisons.images import read_image
 from comparisons.judgement import UNJUDGED
 from comparisons.lobes import find_lobes
 from comparisons.pixel_evidence import pixel_evidence, read_pixel_evidence
-from comparisons.renderer import FirstHits, Rays, RendererError, Rendering
+from comparisons.renderer import FirstHits, Integrator, Rays, RendererError, Rendering
 from comparisons.results import Cell, Verdict
 from reference_tracer.arithmetic import FLOAT
 from reference_tracer.rendering import primary_rays, render
@@ -108,13 +108,21 @@ def test_an_image_of_another_size_is_an_error(shape: tuple[int, ...], tmp_path: 
     assert "(4, 6, 3)" in cell.reason
 
 
-def test_an_image_of_what_is_no_number_fails_and_can_be_read_back(tmp_path: Path) -> None:
-    cell = cell_of(tmp_path, lambda *_: Rendering(np.full((4, 6, 3), np.nan, dtype=np.float32), 0.0))
+def test_an_image_with_what_is_no_number_is_an_error_and_can_be_read_back(tmp_path: Path) -> None:
+    image = np.ones((4, 6, 3), dtype=np.float32)
+    image[2, 3, 1] = image[3, 0] = np.nan
+    cell = cell_of(tmp_path, lambda *_: Rendering(image, 0.0))
+    assert cell.verdict == Verdict.ERROR
+    assert cell.reason == "2 pixels of its image are not a number, the first of them (3, 2)"
+    text = (tmp_path / PLACE.folder / CELL_FILE).read_text()
+    assert Cell.model_validate_json(text).model_dump_json() == cell.model_dump_json()
+
+
+def test_an_infinite_image_fails(tmp_path: Path) -> None:
+    cell = cell_of(tmp_path, lambda *_: Rendering(np.full((4, 6, 3), np.inf, dtype=np.float32), 0.0))
     assert cell.verdict == Verdict.FAIL
     assert cell.judgement is not None
     assert cell.judgement.failing == 24
-    text = (tmp_path / PLACE.folder / CELL_FILE).read_text()
-    assert Cell.model_validate_json(text).model_dump_json() == cell.model_dump_json()
 
 
 def test_one_wrong_pixel_fails(tmp_path: Path) -> None:
@@ -172,6 +180,60 @@ def test_wrong_first_hits_fail_a_right_image(tmp_path: Path) -> None:
     assert cell.first_hits is not None
     assert cell.first_hits.failing > 0
     assert cell.reason.startswith(f"{cell.first_hits.failing} first hits")
+
+
+FIRST_HITS_ONLY = (Integrator("whitted", "E", gives="first hits"),)
+
+
+def right_first_hits() -> FirstHits:
+    """The middles of the certain feasible sets."""
+    feasible = evidence().feasible
+    primitive = feasible.hit_primitives[..., 0]
+    middles = 0.5 * (feasible.hit_low + feasible.hit_high)[..., 0, :]
+    depth = np.where(primitive < 0, np.inf, middles[..., 0])
+    return FirstHits(depth, middles[..., 1:4], middles[..., 4:], primitive)
+
+
+def first_hits_cell(folder: Path, hits: FirstHits | None) -> Cell:
+    renderer = Pretender(lambda *_: Rendering(None, 0.5, hits), integrators=FIRST_HITS_ONLY)
+    return run_cell(PLACE, renderer, 0, evidence(), folder)
+
+
+def test_first_hits_alone_are_judged_without_an_image(tmp_path: Path) -> None:
+    cell = first_hits_cell(tmp_path, right_first_hits())
+    assert cell.first_hits is not None
+    assert (cell.verdict, cell.reason) == (Verdict.PASS, "all 24 first hits lie in their feasible sets")
+    assert (cell.images, cell.judgement, cell.first_hits.compared) == (None, None, 24)
+    assert files(tmp_path) == {f"cells/small/pretender-whitted/{CELL_FILE}"}
+
+
+def test_one_wrong_first_hit_fails_without_an_image(tmp_path: Path) -> None:
+    hits = right_first_hits()
+    y, x = np.argwhere(hits.primitive >= 0)[0]
+    hits.depth[y, x] *= 1 + 1e-6
+    cell = first_hits_cell(tmp_path, hits)
+    assert (cell.verdict, cell.reason) == (Verdict.FAIL, "1 of 24 first hits lie outside their feasible sets")
+
+
+def test_first_hits_of_which_none_can_be_judged_do_not_pass(tmp_path: Path) -> None:
+    whole = evidence()
+    nothing = replace(whole.feasible, hit_primitives=np.full_like(whole.feasible.hit_primitives, UNUSED))
+    renderer = Pretender(lambda *_: Rendering(None, 0.5, right_first_hits()), integrators=FIRST_HITS_ONLY)
+    cell = run_cell(PLACE, renderer, 0, replace(whole, feasible=nothing), tmp_path)
+    assert (cell.verdict, "no first hit could be judged" in cell.reason) == (Verdict.FAIL, True)
+
+
+def test_what_an_integrator_does_not_give_is_an_error(tmp_path: Path) -> None:
+    assert first_hits_cell(tmp_path, None).reason == "expected first hits, got nothing"
+    only_hits = cell_of(tmp_path, lambda *_: Rendering(None, 0.5, right_first_hits()))
+    assert (only_hits.verdict, only_hits.reason) == (Verdict.ERROR, "expected image, got nothing")
+
+
+@pytest.mark.parametrize("name", ["depth", "position", "normal", "primitive"])
+def test_first_hits_of_another_size_are_an_error(name: str, tmp_path: Path) -> None:
+    hits = replace(right_first_hits(), **{name: getattr(right_first_hits(), name)[1:]})
+    cell = first_hits_cell(tmp_path, hits)
+    assert (cell.verdict, cell.reason.startswith(f"expected {name} ")) == (Verdict.ERROR, True)
 
 
 def test_the_folder_is_replaced_whole(tmp_path: Path) -> None:

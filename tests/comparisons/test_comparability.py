@@ -1,17 +1,15 @@
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from comparisons.comparability import depth_or_reason
+from comparisons.renderer import Integrator
 from comparisons.renderers.closed_form import ClosedFormRenderer
 from comparisons.renderers.mitsuba import mitsuba_scalar
 from comparisons.renderers.reference import ReferenceTracer
 from scenes.library import library_names, open_scene
 from tests.comparisons.pretending import Pretender
 from tests.scenes.exporter_scenes import BALL, GLASS, MIRROR, POINT, RED, build
-
-if TYPE_CHECKING:
-    from comparisons.renderer import Integrator
 
 DIRECT, PATH = mitsuba_scalar().integrators
 GREY = {"color": (0.5, 0.5, 0.5)}
@@ -34,6 +32,13 @@ def test_a_difference_of_light_paths_is_the_reason() -> None:
 def test_what_a_renderer_refuses_comes_before_light_paths() -> None:
     two = build(lights=[POINT], background=GREY, objects=[BALL, BALL])
     assert "2 primitives" in str(depth_or_reason(two, ClosedFormRenderer(), ClosedFormRenderer.integrators[0]))
+
+
+def test_first_hits_alone_can_be_compared_whatever_the_light_paths() -> None:
+    first_hits = Integrator("first-hits", "E", gives="first hits")
+    assert mitsuba(first_hits, lights=[POINT], background=GREY) == 0
+    refused = depth_or_reason(build(objects=[BALL, BALL]), ClosedFormRenderer(), first_hits)
+    assert "2 primitives" in str(refused)
 
 
 def test_noisy_scenes_need_a_bound() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -95,21 +96,72 @@ def test_a_child_that_closes_its_output_and_hangs_meets_the_time_limit(tmp_path:
 
 
 FORK_A_SLEEPER = """
-import os, time
+import os, sys, time
 child = os.fork()
 if child == 0:
+    {escape}
     time.sleep(600)
-open("grandchild", "w").write(str(child))
+print("child", child, flush=True)
 """
+ESCAPES = [
+    "pass",
+    "os.setsid()",
+    "os.setsid()\n    if os.fork(): os._exit(0)\n    print('child', os.getpid(), flush=True)",
+]
 
 
-@pytest.mark.parametrize("ending", ["", "os.abort()", "time.sleep(600)"])
-def test_a_sleeping_grandchild_neither_delays_the_end_nor_survives_it(ending: str, tmp_path: Path) -> None:
-    try:
-        run_python(FORK_A_SLEEPER + ending, tmp_path, seconds=GENEROUS_SECONDS if ending != "time.sleep(600)" else 1.0)
-    except RendererError:
-        assert ending
-    assert_ends(int((tmp_path / "grandchild").read_text()))
+def children_named_in_the_log(folder: Path) -> list[int]:
+    return [int(line.split()[1]) for line in (folder / LOG_FILE).read_text().splitlines() if line.startswith("child")]
+
+
+@pytest.mark.parametrize("escape", ESCAPES, ids=["same session", "own session", "daemon"])
+@pytest.mark.parametrize(
+    ("ending", "reason"),
+    [("", "left 1 process behind"), ("os.abort()", "SIGABRT"), ("time.sleep(600)", "time limit of 2 s")],
+)
+def test_a_sleeping_grandchild_neither_delays_the_end_nor_survives_it_and_is_a_failure(
+    escape: str, ending: str, reason: str, tmp_path: Path
+) -> None:
+    assert reason in failure_of(FORK_A_SLEEPER.format(escape=escape) + ending, tmp_path, seconds=2.0)
+    grandchildren = children_named_in_the_log(tmp_path)
+    assert grandchildren
+    for grandchild in grandchildren:
+        assert_ends(grandchild)
+
+
+def test_a_grandchild_that_ends_within_the_grace_is_no_failure(tmp_path: Path) -> None:
+    run_python("import os, time\nif os.fork() == 0: time.sleep(0.1)", tmp_path)
+
+
+def test_one_that_kills_its_guard_is_a_failure_and_does_not_survive_it(tmp_path: Path) -> None:
+    code = (
+        "import os, signal, time; print('child', os.getpid(), flush=True); os.kill(os.getppid(), {}); time.sleep(600)"
+    )
+    for name in ("signal.SIGKILL", "signal.SIGTERM"):
+        assert "ended the process that guards it" in failure_of(code.format(name), tmp_path)
+        for child in children_named_in_the_log(tmp_path):
+            assert_ends(child)
+    assert "time limit" in failure_of(code.format("signal.SIGSTOP"), tmp_path, seconds=0.5)
+    for child in children_named_in_the_log(tmp_path):
+        assert_ends(child)
+
+
+def test_nothing_survives_when_we_are_killed(tmp_path: Path) -> None:
+    child = "import os, time; os.setsid(); open('half', 'w').write(str(os.getpid())); os.rename('half', 'named'); "
+    code = (
+        "import pathlib, sys; from comparisons.isolation import run_isolated; "
+        "run_isolated(sys.argv[2:], pathlib.Path(sys.argv[1]), seconds=60, memory_bytes=1 << 30)"
+    )
+    grandchild = [sys.executable, "-c", child + "time.sleep(600)"]
+    with subprocess.Popen([sys.executable, "-c", code, str(tmp_path), *grandchild]) as caller:
+        try:
+            deadline = time.monotonic() + GENEROUS_SECONDS
+            while not (tmp_path / "named").exists():
+                assert time.monotonic() < deadline, "the child has not started"
+                time.sleep(0.01)
+        finally:
+            caller.kill()
+    assert_ends(int((tmp_path / "named").read_text()))
 
 
 def children() -> set[str]:
@@ -131,9 +183,25 @@ def test_garbage_without_end_is_cut_off(tmp_path: Path) -> None:
 
 
 def test_a_file_without_end_is_cut_off(tmp_path: Path) -> None:
-    message = failure_of("f = open('big', 'wb')\nwhile True: f.write(bytes(1 << 16))", tmp_path)
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    message = failure_of(f"f = open({str(tmp_path / 'big')!r}, 'wb')\nwhile True: f.write(bytes(1 << 16))", folder)
     assert "SIGXFSZ" in message or "File too large" in message
     assert (tmp_path / "big").stat().st_size <= 1 << 20
+
+
+def test_what_a_failed_child_wrote_is_removed_and_what_was_there_stays(tmp_path: Path) -> None:
+    (tmp_path / "input").write_text("mine")
+    code = "import os, sys; os.mkdir('deep'); open('deep/half', 'w').write('x'); open('half', 'w'); sys.exit(1)"
+    failure_of(code, tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} == {"input", LOG_FILE}
+
+
+def test_temporary_files_go_and_results_stay(tmp_path: Path) -> None:
+    code = "import tempfile; tempfile.mkstemp(); tempfile.mkdtemp(); open('result', 'w'); print(tempfile.gettempdir())"
+    run_python(code, tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} == {"result", LOG_FILE}
+    assert str(tmp_path) in (tmp_path / LOG_FILE).read_text()
 
 
 def test_memory_without_end_is_refused(tmp_path: Path) -> None:

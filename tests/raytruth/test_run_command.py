@@ -187,17 +187,17 @@ def test_json_is_one_document_that_follows_the_format(folder: Path, capsys: pyte
     assert Results.model_validate(told) == results_in(folder / "results")
 
 
-def test_json_of_what_is_no_number_is_still_json(pretender: Pretender, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_of_an_infinite_error_is_still_json(pretender: Pretender, capsys: pytest.CaptureFixture[str]) -> None:
     def nothing(scene: Scene, folder: Path) -> Rendering:
         rendering = truthful(scene, folder)
-        rendering.image[...] = np.nan
+        rendering.image[...] = np.inf
         return rendering
 
     pretender.answer = nothing
     status, out, _ = run(capsys, "run", "small.json", "--renderer", "pretender", "--json")
     assert status == 1
     (cell,) = json.loads(out, parse_constant=pytest.fail)["cells"]
-    assert cell["largest_error"] == "NaN"
+    assert cell["largest_error"] == "Infinity"
 
 
 def test_runs_into_one_directory_add_up(pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

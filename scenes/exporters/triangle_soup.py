@@ -1,0 +1,31 @@
+"""A scene of triangles as arrays, in the scene's numbering of primitives."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from scenes.exporters.mitsuba_limits import triangles_of
+from scenes.shapes import Sphere
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from scenes.scene import Scene
+
+
+def triangles_of_scene(scene: Scene) -> NDArray[np.float64]:
+    """The corners of all triangles, shape (n, 3, 3). Spheres are left out."""
+    of_objects = [triangles_of(shape) for shape in scene.objects if not isinstance(shape, Sphere)]
+    return np.concatenate([np.empty((0, 3, 3)), *of_objects])
+
+
+def material_of_each_triangle(scene: Scene) -> list[str]:
+    """The names of the triangles' materials."""
+    return [
+        shape.material
+        for shape in scene.objects
+        if not isinstance(shape, Sphere)
+        for _ in range(len(triangles_of(shape)))
+    ]
