@@ -70,11 +70,15 @@ class ErrorModel:
     """Indices of refraction are rounded to this many bits when they are stored, if to fewer than all else."""
     triangle_test: Literal["watertight", "moeller-trumbore", "pluecker"] = "watertight"
     """Which formula decides whether a ray meets a triangle: the truth's own, or one of triangle_tests.py."""
+    image_radius: float = 0.0
+    """A pixel's ray may go through any point within so many pixels of its centre, in x and in y."""
     output: OutputModel = field(default_factory=OutputModel)
     random_choices: str = ""
     """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""
 
     def __post_init__(self) -> None:
+        if self.image_radius < 0.0:
+            raise ValueError("an image radius is not negative")
         nearest = self.ray_offset.minimum_distance
         if self.shadow_tolerance and (self.ray_offset.excludes_surface or self.shadow_tolerance < nearest):
             raise ValueError("a shadow tolerance is at least the least distance of hits, and excludes no surface")
@@ -82,10 +86,12 @@ class ErrorModel:
     def in_words(self) -> dict[str, str]:
         """Each field as a clause, by what it is about."""
         shortened = f"{self.shadow_shortening:.3g} of the distance before the light"
+        around = f"within {self.image_radius:.3g} pixels of a pixel's centre, in x and in y"
         near = f"{self.shadow_tolerance:.3g} from the surface or the light may throw a shadow or none"
         return {
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
+            "camera rays go": around if self.image_radius > 0.0 else "through the centres of pixels",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
             "triangles": f"{self.triangle_test} test",
             "rays that leave a surface start": self.ray_offset.in_words(),

@@ -43,7 +43,7 @@ class RoundedRays(Protocol):
     decisions: Decisions
 
     def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
-        """Origin and direction through the centre of a pixel."""
+        """Origin and direction through the centre of a pixel, or any point as near to it as the error model says."""
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
         """What a ray brings by itself, and the rays that go on from its end."""
@@ -63,10 +63,12 @@ class PlainRays:
         kernel = self.prepared.kernel
         kernel.nearest_hit = RememberedHit(kernel.nearest_hit, self.decisions)
         self._frame = kernel.camera_frame(self.prepared.data)
+        self._image_radius = error_model.image_radius
 
     def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
         """As the protocol says."""
-        ray: tuple[Any, Any] = self.prepared.kernel.primary_ray(self._frame, arb(column + 0.5), arb(line + 0.5))
+        x, y = arb(column + 0.5, self._image_radius), arb(line + 0.5, self._image_radius)
+        ray: tuple[Any, Any] = self.prepared.kernel.primary_ray(self._frame, x, y)
         return ray
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
@@ -91,11 +93,13 @@ class LinkedRays:
         frame = self.prepared.kernel.camera_frame(self.prepared.data)
         numbers = iter(condensed([number for vector in frame for number in vector]))
         self._frame = tuple(tuple(next(numbers) for _ in vector) for vector in frame)
+        self._image_radius = error_model.image_radius
 
     def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
         """As the protocol says."""
-        number = self.prepared.arithmetic.number
-        origin, direction = self.prepared.kernel.primary_ray(self._frame, number(column + 0.5), number(line + 0.5))
+        ball = self.prepared.arithmetic.functions["ball"]
+        x, y = (ball(arb(center + 0.5, self._image_radius)) for center in (column, line))
+        origin, direction = self.prepared.kernel.primary_ray(self._frame, x, y)
         return _condensed_ray(origin, direction)
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:

@@ -51,6 +51,14 @@ def test_a_shadow_tolerance_needs_surfaces_that_are_tested_and_is_no_less_than_t
     assert words["indices of refraction"] == "stored with 11 bits"
 
 
+def test_an_image_radius_is_not_negative_and_told_in_words() -> None:
+    with pytest.raises(ValueError, match="image radius"):
+        ErrorModel("", 24, image_radius=-0.5)
+    assert ErrorModel("", 24).in_words()["camera rays go"] == "through the centres of pixels"
+    words = ErrorModel("", 24, image_radius=0.5).in_words()
+    assert words["camera rays go"] == "within 0.5 pixels of a pixel's centre, in x and in y"
+
+
 def test_the_words_have_a_clause_for_every_field() -> None:
     assert len(ErrorModel("a renderer", 24).in_words()) == len(fields(ErrorModel))
 

@@ -1,7 +1,8 @@
-"""What a renderer stores in place of the scene's numbers."""
+"""Where a pixel's ray may go, and what a renderer stores in place of the scene's numbers."""
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,7 +10,9 @@ import pytest
 
 from comparisons.error_model import ErrorModel
 from comparisons.rounded_rays import LinkedRays, PlainRays
+from reference_tracer.arithmetic import FLOAT
 from reference_tracer.linked_balls import enclosure
+from reference_tracer.rendering import prepare
 from reference_tracer.scene_data import MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX, number_of
 from scenes.library import open_scene
 from tests.reference_tracer.kernels import kept_precision
@@ -40,3 +43,25 @@ def test_indices_of_refraction_have_the_bits_that_are_declared(way: Any, ball_of
         assert float(ball.rad()) <= (0.0 if bits else index * 2.0**-44)
         assert ball_of(number_of(data, MATERIAL_OUTSIDE_INDEX, 0)) == 1
         assert ball_of(number_of(way(scene, model).prepared.data, MATERIAL_INDEX, 0)) == 1.5
+
+
+@pytest.mark.parametrize(("way", "ball_of"), [(PlainRays, lambda ball: ball), (LinkedRays, enclosure)])
+@pytest.mark.parametrize("name", ["sphere-over-floor", "parallel-projection"])
+def test_a_pixels_ray_stands_for_all_rays_within_the_image_radius(way: Any, ball_of: Any, name: str) -> None:
+    scene = open_scene(name)
+    column, line, radius = 7, 5, 0.25
+    ray = way(scene, ErrorModel("", 24, image_radius=radius)).primary_ray(column, line)
+    balls = [ball_of(number) for vector in ray for number in vector]
+    exact = prepare(scene, FLOAT)
+    frame = exact.kernel.camera_frame(exact.data)
+    inside = [[] for _ in balls]
+    for x, y in itertools.product((-radius, 0.0, radius), repeat=2):
+        through = exact.kernel.primary_ray(frame, column + 0.5 + x, line + 0.5 + y)
+        numbers = [number for vector in through for number in vector]
+        assert all(ball.contains(number) for ball, number in zip(balls, numbers, strict=True))
+        for values, number in zip(inside, numbers, strict=True):
+            values.append(number)
+    # Nor does it stand for many others: what depends on x and y alike is no more than a few times too wide.
+    assert any(max(values) > min(values) for values in inside)
+    for ball, values in zip(balls, inside, strict=True):
+        assert 2 * float(ball.rad()) <= 4 * (max(values) - min(values)) + 2.0**-20
