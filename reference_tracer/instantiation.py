@@ -101,8 +101,9 @@ def kernel_source(
         functions[name] = _override(name, override)
     pruned = {name: _FeaturePruner(features).prune(function) for name, function in functions.items()}
     reached = _reachable(pruned, entry_points)
+    mentioned = set().union(*map(_names, reached))
     literals = _LiteralNamer()
-    body: list[ast.stmt] = [constant for name, constant in constants.items() if _mentions(reached, name)]
+    body: list[ast.stmt] = [constant for name, constant in constants.items() if name in mentioned]
     for function in reached:
         named = literals.visit(function)
         decided = _ComparisonCalls().visit(named) if decided_comparisons else named
@@ -139,10 +140,6 @@ def _functions_and_constants(module: ast.Module) -> tuple[dict[str, ast.Function
 
 def _names(node: ast.AST) -> set[str]:
     return {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}
-
-
-def _mentions(functions: list[ast.FunctionDef], name: str) -> bool:
-    return any(name in _names(function) for function in functions)
 
 
 def _reachable(functions: dict[str, ast.FunctionDef], entry_points: tuple[str, ...]) -> list[ast.FunctionDef]:
