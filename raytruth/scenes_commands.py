@@ -2,63 +2,24 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
-from dataclasses import dataclass
-from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import App, Parameter
 
 from raytruth.errors import UsageError
+from raytruth.export_command import export
 from raytruth.options import AsJson, open_scene
 from raytruth.output import print_json, print_table
-from scenes.exporters import mitsuba_limits, povray_limits
-from scenes.exporters.mitsuba import export_mitsuba
-from scenes.exporters.povray import export_povray, options_of
 from scenes.library import library_names
 from scenes.light_paths import whitted_class
 from scenes.requirements import required_features
 from scenes.schema import json_schema
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from scenes.scene import Scene
 
 app = App(name="scenes")
-
-# The path integrator of Mitsuba counts edges: one to the first surface, one a bounce, one to the light.
-MITSUBA_EDGES = 2
-
-
-def _export_mitsuba(scene: Scene, folder: Path) -> Path:
-    return export_mitsuba(scene, folder, max_depth=scene.max_depth + MITSUBA_EDGES)
-
-
-@dataclass(frozen=True)
-class _Format:
-    """What a scene can be written as."""
-
-    program: str
-    refuses: Callable[[Scene], str | None]
-    write: Callable[[Scene, Path], Path]
-    command: Callable[[Scene, Path], str]
-    """What opens the file."""
-
-
-FORMATS = {
-    "mitsuba": _Format(
-        "Mitsuba", mitsuba_limits.refuses, _export_mitsuba, lambda _, file: f"mitsuba {shlex.quote(str(file))}"
-    ),
-    "povray": _Format(
-        "POV-Ray",
-        povray_limits.refuses,
-        export_povray,
-        lambda scene, file: f"povray {shlex.quote(str(file))} {' '.join(options_of(scene))}",
-    ),
-}
 
 
 @app.command(name="list")
@@ -183,53 +144,4 @@ def _problems(file: str) -> list[str]:
     return []
 
 
-@app.command
-def export(
-    scene: str,
-    /,
-    *,
-    to: Literal["mitsuba", "povray"],
-    out: Annotated[Path, Parameter(name=["--out", "-o"])],
-    as_json: AsJson = False,
-) -> None:
-    """Write a scene as files of another renderer.
-
-    Example: `raytruth scenes export cornell-box --to mitsuba --out cornell`
-
-    Parameters
-    ----------
-    scene
-        A scene of the library, or the path of a .json file.
-    to
-        The format.
-    out
-        The folder for the files; it is made if only itself is missing.
-    as_json
-        Print one JSON document instead of text.
-    """
-    opened = open_scene(scene)
-    form = FORMATS[to]
-    reason = form.refuses(opened)
-    if reason is not None:
-        raise UsageError(f"{opened.name} cannot be written for {form.program}, because {reason}.")
-    if not out.parent.is_dir():
-        raise UsageError(f"--out: there is no folder {out.parent}; create it first.")
-    if out.exists() and not out.is_dir():
-        raise UsageError(f"--out: expected a folder, but {out} is a file.")
-    try:
-        main_file, files = _export(opened, form, out)
-    except OSError as error:
-        raise UsageError(f"--out: {out} cannot be written ({error.strerror}).") from error
-    if as_json:
-        print_json({"scene": opened.name, "file": str(main_file), "files": list(map(str, files))})
-    else:
-        print(f"Wrote {main_file}; open it with: {form.command(opened, main_file)}")
-
-
-def _export(scene: Scene, form: _Format, out: Path) -> tuple[Path, list[Path]]:
-    """The scene file, and all files; written beside the folder first, so that a failure leaves nothing half-written."""
-    with TemporaryDirectory(prefix=".", dir=out.parent) as unfinished:
-        scene_file = form.write(scene, Path(unfinished))
-        out.mkdir(exist_ok=True)
-        files = [path.replace(out / path.name) for path in sorted(Path(unfinished).iterdir())]
-    return out / scene_file.name, files
+app.command(export)

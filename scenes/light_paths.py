@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import regex
 
-from scenes.lights import ConstantBackground
+from scenes.lights import shines
 from scenes.shapes import Mesh, Sphere, Triangle
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ class _Graph:
 
     def __init__(self, scene: Scene) -> None:
         self.surfaces = [_surface(scene, scene.materials[shape.material]) for shape in scene.objects]
-        self.background_shines = _shines(scene)
+        self.background_shines = shines(scene.background)
         count = len(scene.objects)
         self.sees = [[_can_see(scene, i, j) for j in range(count)] for i in range(count)]
 
@@ -129,13 +129,6 @@ def _surface(scene: Scene, material: Material) -> _Surface:
     # What a surface gives back of the ambient light needs no path to a light, as if it were emitted.
     emits = material.emission is not None or (material.ambient is not None and any(scene.ambient_light))
     return _Surface(letters, emits=emits, lit=reflects and bool(scene.lights))
-
-
-def _shines(scene: Scene) -> bool:
-    background = scene.background
-    if isinstance(background, ConstantBackground):
-        return any(background.color)
-    return any((*background.bottom, *background.top))
 
 
 def _can_see(scene: Scene, i: int, j: int) -> bool:

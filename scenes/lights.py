@@ -78,3 +78,10 @@ Background = Annotated[
     Annotated[ConstantBackground, Tag("<constant>")] | Annotated[GradientBackground, Tag("<gradient>")],
     Discriminator(_background_tag),
 ]
+
+
+def shines(background: Background) -> bool:
+    """Whether a background brings any light."""
+    if isinstance(background, ConstantBackground):
+        return any(background.color)
+    return any((*background.bottom, *background.top))

@@ -11,7 +11,7 @@ from scenes.exporters.mitsuba_elements import add_comment, add_numbers, add_text
 from scenes.exporters.mitsuba_files import checkerboard_coordinates, write_gradient, write_triangles
 from scenes.exporters.mitsuba_limits import refuses, reversed_primitives
 from scenes.exporters.mitsuba_materials import add_bsdf, add_texture, checkerboard_of
-from scenes.lights import ConstantBackground, GradientBackground, PointLight
+from scenes.lights import GradientBackground, PointLight, shines
 from scenes.requirements import used_materials
 from scenes.shapes import Mesh, Sphere
 
@@ -41,16 +41,9 @@ Source = int | Literal["emission"]
 def light_sources(scene: Scene) -> list[Source]:
     """What sends light: the index of each light, and `emission` where a surface or the background shines."""
     sources: list[Source] = list(range(len(scene.lights)))
-    if _background_shines(scene) or any(scene.materials[shape.material].emission for shape in scene.objects):
+    if shines(scene.background) or any(scene.materials[shape.material].emission for shape in scene.objects):
         sources.append("emission")
     return sources
-
-
-def _background_shines(scene: Scene) -> bool:
-    background = scene.background
-    if isinstance(background, ConstantBackground):
-        return any(background.color)
-    return any(background.bottom) or any(background.top)
 
 
 def first_primitives_of(scene: Scene) -> list[int]:
@@ -96,7 +89,7 @@ def export_mitsuba(
         if only_source in (None, index):
             _add_light(root, light)
     emission = only_source in (None, "emission")
-    if emission and _background_shines(scene):
+    if emission and shines(scene.background):
         _add_background(root, scene, folder)
     material_ids: dict[str, str] = {}
     for name in dict.fromkeys(shape.material for shape in scene.objects):

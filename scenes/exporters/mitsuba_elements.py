@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
+from scenes.exporters.comments import one_line
+
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
@@ -13,7 +15,7 @@ if TYPE_CHECKING:
 
 def add_comment(parent: Element, text: str) -> None:
     """A comment of one line; what XML forbids in comments is replaced, since the text is the scene author's."""
-    printable = "".join(c if c.isprintable() else " " for c in text)
+    printable = one_line(text)
     parent.append(ElementTree.Comment(f" {printable.replace('-', '‐') if '--' in printable else printable} "))
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from scenes.exporters.comments import one_line
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
@@ -20,7 +22,7 @@ def color(values: Sequence[float]) -> str:
 
 def comment(text: str) -> str:
     """A comment of one line; the text is the scene author's and may hold what ends a line."""
-    return f"// {''.join(c if c.isprintable() else ' ' for c in text)}\n"
+    return f"// {one_line(text)}\n"
 
 
 def block(keyword: str, *lines: str) -> str:

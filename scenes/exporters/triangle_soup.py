@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from scenes.exporters.mitsuba_limits import triangles_of
-from scenes.shapes import Sphere
+from scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from scenes.scene import Scene
+    from scenes.shapes import Triangle
+    from scenes.triangle_lists import TriangleLists
 
 
 def triangles_of_scene(scene: Scene) -> NDArray[np.float64]:
@@ -29,3 +31,8 @@ def material_of_each_triangle(scene: Scene) -> list[str]:
         if not isinstance(shape, Sphere)
         for _ in range(len(triangles_of(shape)))
     ]
+
+
+def triangle_lists(shape: Triangle | Mesh) -> TriangleLists:
+    """Its vertices and faces; a triangle has one face."""
+    return (shape.vertices, shape.faces) if isinstance(shape, Mesh) else (shape.vertices, ((0, 1, 2),))

@@ -1,0 +1,135 @@
+"""`raytruth scenes export`: a scene as files of other programs."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from cyclopts import Parameter
+
+from raytruth.errors import UsageError
+from raytruth.options import AsJson, open_scene
+from raytruth.output import print_json
+from scenes.exporters import gltf_limits, json_scene, mitsuba_limits, obj, pbrt_limits, povray_limits
+from scenes.exporters.gltf import export_gltf
+from scenes.exporters.mitsuba import export_mitsuba
+from scenes.exporters.pbrt import export_pbrt
+from scenes.exporters.povray import export_povray, options_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from scenes.scene import Scene
+
+# The path integrator of Mitsuba counts edges: one to the first surface, one a bounce, one to the light.
+MITSUBA_EDGES = 2
+
+
+def _export_mitsuba(scene: Scene, folder: Path) -> Path:
+    return export_mitsuba(scene, folder, max_depth=scene.max_depth + MITSUBA_EDGES)
+
+
+def _nothing_to_note(_: Scene) -> list[str]:
+    return []
+
+
+@dataclass(frozen=True)
+class Format:
+    """What a scene can be written as."""
+
+    purpose: str
+    """For which program or as what, after 'cannot be written'."""
+    refuses: Callable[[Scene], str | None]
+    """Why a scene cannot be written, in one clause; None if it can."""
+    notes: Callable[[Scene], list[str]]
+    """What is left out, rounded or computed otherwise, in one clause each."""
+    write: Callable[[Scene, Path], Path]
+    """Writes all files to a folder and returns the path of the main one."""
+    command: Callable[[Scene, str], str] | None = None
+    """The command line that opens the file, given as a word of a shell; none where many programs do."""
+
+
+FORMATS = {
+    "mitsuba": Format(
+        "for Mitsuba", mitsuba_limits.refuses, _nothing_to_note, _export_mitsuba, lambda _, file: f"mitsuba {file}"
+    ),
+    "povray": Format(
+        "for POV-Ray",
+        povray_limits.refuses,
+        _nothing_to_note,
+        export_povray,
+        lambda scene, file: f"povray {file} {' '.join(options_of(scene))}",
+    ),
+    "pbrt": Format("for pbrt", pbrt_limits.refuses, pbrt_limits.notes, export_pbrt, lambda _, file: f"pbrt {file}"),
+    "obj": Format("as OBJ", obj.refuses, obj.notes, obj.export_obj),
+    "gltf": Format("as glTF", gltf_limits.refuses, gltf_limits.notes, export_gltf),
+    "json": Format(
+        "as JSON",
+        json_scene.refuses,
+        json_scene.notes,
+        json_scene.export_json,
+        lambda _, file: f"raytruth render {file} -o picture.png",
+    ),
+}
+
+
+def export(
+    scene: str,
+    /,
+    *,
+    to: Literal["mitsuba", "povray", "pbrt", "obj", "gltf", "json"],
+    out: Annotated[Path | None, Parameter(name=["--out", "-o"], show_default=False)] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Write a scene as files of another program.
+
+    What the format cannot say is refused where the picture would be wrong, and told where it is left out.
+
+    Example: `raytruth scenes export cornell-box --to mitsuba --out cornell`
+
+    Parameters
+    ----------
+    scene
+        A scene of the library, or the path of a .json file.
+    to
+        The format; json is a scene file of raytruth's own that holds its meshes.
+    out
+        The folder for the files, by default SCENE-FORMAT; it is made if only itself is missing.
+    as_json
+        Print one JSON document instead of text.
+    """
+    opened = open_scene(scene)
+    form = FORMATS[to]
+    reason = form.refuses(opened)
+    if reason is not None:
+        raise UsageError(f"{opened.name} cannot be written {form.purpose}, because {reason}.")
+    folder = out or Path(f"{opened.name}-{to}")
+    if not folder.parent.is_dir():
+        raise UsageError(f"--out: there is no folder {folder.parent}; create it first.")
+    if folder.exists() and not folder.is_dir():
+        raise UsageError(f"--out: expected a folder, but {folder} is a file.")
+    try:
+        main_file, files = _export(opened, form, folder)
+    except OSError as error:
+        raise UsageError(f"--out: {folder} cannot be written ({error.strerror}).") from error
+    notes = form.notes(opened)
+    if as_json:
+        print_json({"scene": opened.name, "file": str(main_file), "files": list(map(str, files)), "notes": notes})
+        return
+    for note in notes:
+        print(f"{opened.name}: {note}.", file=sys.stderr)
+    opens = f"; open it with: {form.command(opened, shlex.quote(str(main_file)))}" if form.command else ""
+    print(f"Wrote {main_file}{opens}")
+
+
+def _export(scene: Scene, form: Format, folder: Path) -> tuple[Path, list[Path]]:
+    """The main file, and all files; written beside the folder first, so that a failure leaves nothing half-written."""
+    with TemporaryDirectory(prefix=".", dir=folder.parent) as unfinished:
+        main_file = form.write(scene, Path(unfinished))
+        folder.mkdir(exist_ok=True)
+        files = [path.replace(folder / path.name) for path in sorted(Path(unfinished).iterdir())]
+    return folder / main_file.name, files

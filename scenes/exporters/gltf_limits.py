@@ -1,0 +1,69 @@
+"""What glTF 2.0 can express of a scene, with its ratified extensions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from scenes.exporters.triangle_soup import triangle_lists
+from scenes.lights import PointLight, shines
+from scenes.materials import CheckerboardColor
+from scenes.requirements import used_materials
+from scenes.shapes import Sphere
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from scenes.materials import Material
+    from scenes.scene import Scene
+
+
+def refuses(scene: Scene) -> str | None:
+    """Why glTF cannot express this scene, in one clause that follows 'because'; None if it can."""
+    if any(isinstance(shape, Sphere) for shape in scene.objects):
+        return "glTF has no spheres, and triangles in their place would be other surfaces"
+    if any(isinstance(light, PointLight) and light.falloff != "inverse_square" for light in scene.lights):
+        return "a point light of glTF falls off with the inverse square of the distance and in no other way"
+    reasons = (_refuses_material(scene, material) for material in used_materials(scene))
+    return next((reason for reason in reasons if reason), None)
+
+
+def _refuses_material(scene: Scene, material: Material) -> str | None:
+    colors = (material.diffuse and material.diffuse.reflectance, material.emission and material.emission.radiance)
+    mirror = material.mirror.reflectance if material.mirror else ()
+    diffuse = colors[0] if isinstance(colors[0], tuple) else ()
+    reasons = {
+        "glTF has textures as images of 8 bits only, whose colours and edges would not be the checkerboard's": any(
+            isinstance(color, CheckerboardColor) for color in colors
+        ),
+        "glTF has no ambient light": material.ambient and any(scene.ambient_light),
+        "glTF has neither Phong's nor Blinn's specular term": material.specular,
+        "glTF leaves to each viewer how it approximates Fresnel's equations for glass": material.dielectric,
+        "glTF divides a diffuse reflectance by π, and the whitted convention does not": material.diffuse
+        and scene.convention == "whitted",
+        "a material of glTF weakens its diffuse term where it has a mirror": material.diffuse and material.mirror,
+        "a coloured mirror of glTF is white towards grazing angles": len(set(mirror)) > 1,
+        "a reflectance of glTF is at most 1": max((*mirror, *diffuse), default=0.0) > 1,
+    }
+    return next((reason for reason, holds in reasons.items() if holds), None)
+
+
+def notes(scene: Scene) -> list[str]:
+    """What is left out, rounded, or measured otherwise, each in one clause."""
+    found = ["the image's size is left out but for its aspect ratio, and so is max_depth, since glTF has neither"]
+    if shines(scene.background):
+        found.append("the background is left out, since glTF has none")
+    if scene.lights or any(material.emission for material in used_materials(scene)):
+        found.append("a watt is written as a lumen, which scales all light alike")
+    return [*found, *_rounding(scene)]
+
+
+def _rounding(scene: Scene) -> Iterator[str]:
+    stated = np.concatenate([np.ravel(triangle_lists(shape)[0]) for shape in scene.objects if shape.shape != "sphere"])
+    errors: NDArray[np.float64] = np.abs(stated.astype(np.float32).astype(np.float64) - stated)
+    if errors.any():
+        count = np.count_nonzero(errors)
+        yield f"{count} of {len(stated)} coordinates are rounded to float32, by at most {errors.max():.1e}"
