@@ -52,7 +52,7 @@ def _refuses_material(material: Material) -> str | None:
 
 def notes(scene: Scene) -> list[str]:
     """What is left out, each in one clause."""
-    found = ["the camera is left out, since OBJ has none"]
+    found = ["the camera is left out with the image's size and max_depth, since OBJ has none of them"]
     if scene.lights:
         found.append("the lights are left out, since OBJ has none")
     if any(scene.ambient_light):

@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import json
 from typing import TYPE_CHECKING
-from xml.etree import ElementTree
 
 import jsonschema
 import pytest
@@ -58,10 +57,6 @@ def test_show_schema_is_a_schema_that_the_scenes_obey(capsys: pytest.CaptureFixt
         (["show", "single-sphere", "--schema"], "leave the scene out"),
         (["show", "glass-spere"], "did you mean 'glass-sphere'"),
         (["show", "nowhere.json"], "no file of this name"),
-        (["export", "glass-sphere", "--to", "povrey", "--out", "x"], "Choose from"),
-        (["export", "phong-sphere", "--to", "mitsuba", "--out", "x"], "because a point light of Mitsuba"),
-        (["export", "glass-sphere", "--to", "mitsuba", "--out", "no/such/folder"], "there is no folder no/such"),
-        (["export", "glass-sphere", "--to", "mitsuba", "--out", "/proc/folder"], "/proc/folder cannot be written"),
     ],
 )
 def test_what_cannot_be_done_is_one_sentence(
@@ -90,39 +85,3 @@ def test_validate_as_json_has_an_entry_for_each_file(tmp_path: Path, capsys: pyt
     assert (good["file"], good["valid"], good["problems"]) == ("single-sphere", True, [])
     assert (bad["file"], bad["valid"]) == (str(broken), False)
     assert bad["problems"]
-
-
-def test_export_writes_a_mitsuba_scene_and_its_meshes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = tmp_path / "out"
-    exported = document(capsys, "scenes", "export", "glass-sphere", "--to", "mitsuba", "--out", str(folder))
-    assert exported["scene"] == "glass-sphere"
-    assert exported["file"] == str(folder / "scene.xml")
-    assert sorted(exported["files"]) == sorted(map(str, folder.iterdir()))
-    depth = ElementTree.parse(folder / "scene.xml").find("integrator/integer[@name='max_depth']")
-    assert depth is not None
-    assert depth.get("value") == str(open_scene("glass-sphere").max_depth + 2)
-    assert [path.name for path in tmp_path.iterdir()] == ["out"]
-
-
-def test_export_writes_a_povray_scene_and_tells_how_to_render_it(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    file = tmp_path / "out" / "scene.pov"
-    status, out, _ = run(capsys, "scenes", "export", "whitted-1980", "--to", "povray", "--out", str(file.parent))
-    assert status == 0
-    assert f"povray {file} +W160 +H120" in out
-    assert "#version 3.7;" in file.read_text(encoding="utf-8")
-    refused = refusal(capsys, "scenes", "export", "bubble-in-glass", "--to", "povray", "--out", str(tmp_path / "no"))
-    assert "cannot be written for POV-Ray, because POV-Ray 3.7 finds no Fresnel" in refused
-
-
-def test_export_leaves_other_files_of_the_folder_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "mine.txt").write_text("mine")
-    assert run(capsys, "scenes", "export", "plane-mirror", "--to", "mitsuba", "-o", str(tmp_path))[0] == 0
-    assert (tmp_path / "mine.txt").read_text() == "mine"
-
-
-def test_export_to_a_file_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "file").touch()
-    arguments = ("scenes", "export", "plane-mirror", "--to", "mitsuba", "--out", str(tmp_path / "file"))
-    assert "is a file" in refusal(capsys, *arguments)
