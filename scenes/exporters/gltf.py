@@ -32,8 +32,8 @@ SCENE_FILE = "scene.gltf"
 # Numbers of glTF's specification for kinds of data ("Accessor Data Types") and for what a buffer view is used as.
 UNSIGNED_INT, FLOAT = 5125, 5126
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
-# A perspective camera of glTF needs a near plane. Where a triangle reaches behind the camera no distance is right:
-# this one is as near as Mitsuba's in mitsuba.py.
+# A perspective camera of glTF needs a near plane. Where a triangle reaches behind the camera no distance is right: this
+# fraction of the farthest is small beside all that a picture shows.
 NEAREST = 1e-9
 
 
@@ -101,16 +101,17 @@ def _camera(scene: Scene) -> dict[str, Any]:
     forward = _unit(np.array(camera.look_at) - position)
     depths = (triangles_of_scene(scene).reshape(-1, 3) - position) @ forward
     aspect_ratio = camera.width / camera.height
+    # Twice the way to the farthest corner, and half of that to the nearest, so that no rounding of a viewer cuts one
+    # off. 1 if all are behind the camera. A far plane need not be stated, but VTK 9.7 takes none for one at 0.
+    near, far = float(depths.min()) / 2, 2 * float(depths.max())
+    far = far if far > 0 else 1.0
     if camera.projection == "perspective":
-        # Half of the way to the nearest corner, so that no rounding of a viewer cuts it off.
-        near = float(depths.min()) / 2
         lens = {"aspectRatio": aspect_ratio, "yfov": math.radians(camera.vertical_field_of_view)}
-        return {"type": "perspective", "perspective": lens | {"znear": near if near > 0 else NEAREST}}
+        planes = {"znear": near if near > 0 else NEAREST * far, "zfar": far}
+        return {"type": "perspective", "perspective": lens | planes}
     half_height = camera.view_height / 2
-    # Twice the way to the farthest corner; 1 if all of them are behind the camera.
-    far = 2 * float(depths.max())
     window = {"xmag": half_height * aspect_ratio, "ymag": half_height}
-    return {"type": "orthographic", "orthographic": window | {"znear": 0.0, "zfar": far if far > 0 else 1.0}}
+    return {"type": "orthographic", "orthographic": window | {"znear": 0.0, "zfar": far}}
 
 
 def _camera_matrix(scene: Scene) -> list[float]:
