@@ -80,12 +80,16 @@ def feasible_set(
     pixels = [(column, line) for line in range(scene.camera.height) for column in range(scene.camera.width)]
     with ctx.workprec(ctx.prec):  # both ways of following rays set it
         plain = PixelEvaluator(PlainRays(scene, error_model, overrides), bound, FLOAT32_BITS)
-        colors, hits = [], []
+        # A rasteriser's model tells of first hits alone.
+        has_colors = error_model.depth_bits is None
+        colors: list[_Colors | None] = []
+        hits = []
         for pixel in pixels:
-            colors.append(_colors(plain, pixel))
+            colors.append(_colors(plain, pixel) if has_colors else None)
             hits.append(_first_hits(plain, pixel))
         widest_radius = WIDE * _brightest(colors)
         wide = [place for place, color in enumerate(colors) if color is None or color.is_wide(widest_radius)]
+        wide = wide if has_colors else []
         wide_hits = [place for place, hit in enumerate(hits) if hit is None]
         if wide or wide_hits:
             linked = PixelEvaluator(LinkedRays(scene, error_model, overrides), bound, FLOAT32_BITS)

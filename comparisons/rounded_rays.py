@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import arb
 
+from comparisons.rasterisation import rasterisation_constants, rasterisation_overrides
 from comparisons.ray_offsets import offset_constants, offset_overrides
 from comparisons.triangle_tests import triangle_test_constants, triangle_test_overrides
 from reference_tracer.arithmetic import FLOAT
@@ -57,7 +58,7 @@ class PlainRays:
 
     def __init__(self, scene: Scene, error_model: ErrorModel, overrides: Overrides | None = None) -> None:
         self.decisions = Decisions()
-        arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model))
+        arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model, scene))
         self.prepared = prepare(scene, arithmetic, {**_overrides(error_model), **(overrides or {})})
         store_indices(self.prepared, error_model.index_bits)
         kernel = self.prepared.kernel
@@ -87,7 +88,7 @@ class LinkedRays:
 
     def __init__(self, scene: Scene, error_model: ErrorModel, overrides: Overrides | None = None) -> None:
         self.decisions = Decisions()
-        arithmetic = linked_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model))
+        arithmetic = linked_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model, scene))
         self.prepared = prepare(scene, arithmetic, {**_overrides(error_model), **(overrides or {})})
         store_indices(self.prepared, error_model.index_bits)
         frame = self.prepared.kernel.camera_frame(self.prepared.data)
@@ -163,11 +164,19 @@ def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int
 
 def _overrides(error_model: ErrorModel) -> Overrides:
     """What this renderer computes otherwise than the truth does."""
-    return {**offset_overrides(error_model), **triangle_test_overrides(error_model)}
+    return {
+        **offset_overrides(error_model),
+        **triangle_test_overrides(error_model),
+        **rasterisation_overrides(error_model),
+    }
 
 
-def _constants(error_model: ErrorModel) -> dict[str, Any]:
-    return {**offset_constants(error_model), **triangle_test_constants()}
+def _constants(error_model: ErrorModel, scene: Scene) -> dict[str, Any]:
+    return {
+        **offset_constants(error_model),
+        **triangle_test_constants(),
+        **rasterisation_constants(error_model, scene),
+    }
 
 
 def _condensed_ray(origin: Any, direction: Any) -> tuple[Any, Any]:

@@ -36,7 +36,7 @@ def linked_arithmetic(
 ) -> Arithmetic:
     """Linked balls for a renderer whose operations err by at most 2^-precision_bits, relatively.
 
-    Sets the precision of this process.
+    Constants may be lists, too: each number is then one of its own. Sets the precision of this process.
     """
     ctx.prec = precision_bits + MARGIN_BITS
 
@@ -47,6 +47,9 @@ def linked_arithmetic(
 
     def constant(value: Any) -> LinkedBall:
         return RoundedLinkedBall(value.mid(), value, (), ZERO if value.is_exact() else value - value.mid())
+
+    def constants_of(value: Any) -> Any:
+        return [constant(single) for single in value] if isinstance(value, list) else constant(value)
 
     functions = {
         **_comparisons(decisions),
@@ -62,7 +65,7 @@ def linked_arithmetic(
         "power": _power,
         "sqrt": _sqrt,
         "tan": _tan,
-        **{name: constant(value) for name, value in (constants or {}).items()},
+        **{name: constants_of(value) for name, value in (constants or {}).items()},
     }
     return Arithmetic(
         f"linked balls of {precision_bits} bits",
