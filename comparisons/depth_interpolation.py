@@ -53,23 +53,30 @@ def movement_in_space(scene: Scene, volume: ViewVolume) -> float:
     return (CLIPPING_ROUNDOFFS if cut else TRANSFORM_ROUNDOFFS) * ROUNDOFF * _extent(scene) * 3.0**0.5
 
 
-def depth_errors(scene: Scene, volume: ViewVolume, image_radius: float) -> Array:
-    """Bounds on the error of each triangle's depth in the window at any pixel that it may cover; shape (n,).
+@dataclass(frozen=True)
+class DepthErrors:
+    """Of each triangle, at any pixel that it may cover; shape (n,). Infinity for one that is seen too nearly edge on."""
 
-    In units of the range from near to far. Infinity for a triangle seen so nearly edge on that nothing can be said.
-    Corners are snapped by up to `image_radius` pixels.
-    """
+    bounds: Array
+    """On the error of the depth in the window, in units of the range from near to far."""
+    beyond: Array
+    """On the sum of absolute values of a pixel centre's barycentric coordinates: 1, and more where it is outside."""
+
+
+def depth_errors(scene: Scene, volume: ViewVolume, snapping: float) -> DepthErrors:
+    """Bounds for all triangles of a scene, whose corners are snapped by up to so many pixels."""
     corners = homogeneous_corners(scene)
     cut = _cut(corners, volume)
     moved = movement_in_space(scene, volume)
-    errors = np.zeros(len(corners))
-    errors[~cut] = _Pieces.of(corners[~cut], scene, volume, moved).errors(TRANSFORM_ROUNDOFFS, image_radius)
+    # Of a triangle outside of everything nothing is drawn.
+    errors = np.stack([np.zeros(len(corners)), np.ones(len(corners))])
+    errors[:, ~cut] = _Pieces.of(corners[~cut], scene, volume, moved).errors(TRANSFORM_ROUNDOFFS, snapping)
     for triangle in np.flatnonzero(cut):
         polygon = clipped(corners[triangle], _kept(volume))
-        if len(polygon) > 2:  # else nothing of it is drawn
+        if len(polygon) > 2:
             pieces = _Pieces.of(_fans(polygon), scene, volume, moved)
-            errors[triangle] = pieces.errors(CLIPPING_ROUNDOFFS, image_radius).max()
-    return errors
+            errors[:, triangle] = pieces.errors(CLIPPING_ROUNDOFFS, snapping).max(axis=1)
+    return DepthErrors(*errors)
 
 
 def _fans(polygon: Array) -> Array:
@@ -117,8 +124,8 @@ class _Pieces:
             size=size,
         )
 
-    def errors(self, corner_roundoffs: int, image_radius: float) -> Array:
-        """Bounds on the depth's error, shape (m,).
+    def errors(self, corner_roundoffs: int, snapping: float) -> Array:
+        """Bounds as in DepthErrors, shape (2, m).
 
         llvmpipe (lp_state_setup.c) computes z = a + x ∂z/∂x + y ∂z/∂y with ∂z/∂x = (Δz₀₁ Δy₂₀ - Δz₂₀ Δy₀₁) / D and
         D = Δx₀₁ Δy₂₀ - Δx₂₀ Δy₀₁. With extents X, Y, Z of the triangle and κ = 2XY/|D|, that is 2 at least: 1/D has a
@@ -136,14 +143,12 @@ class _Pieces:
         with np.errstate(divide="ignore", invalid="ignore"):
             shape = 2 * extent.prod(axis=1) / double_area
             across = (np.stack(numerators, axis=1) * self.size).sum(axis=1) / double_area
-            # A pixel's centre may be this far outside, in sums of barycentric coordinates' absolute values.
-            beyond = 1 + 6 * (image_radius + self.moved) * extent.sum(axis=1) / double_area
+            beyond = 1 + 6 * (snapping + self.moved) * extent.sum(axis=1) / double_area
             of_plane = ROUNDOFF * (16 * shape * rise * beyond + 16 * across + 4)
             # Three operations from clip coordinates to the window.
             of_corners = beyond * (corner_roundoffs * self.corner_roundoff + 4 * ROUNDOFF)
         is_bounded = (double_area > 0) & (shape < LARGEST_SHAPE)
-        bounds: Array = np.where(is_bounded, of_plane + of_corners, np.inf)
-        return bounds
+        return np.where(is_bounded, [of_plane + of_corners, beyond], np.inf)
 
 
 def _cross(first: Array, second: Array) -> Array:

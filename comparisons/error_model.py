@@ -55,6 +55,21 @@ class RayOffset:
 
 
 @dataclass(frozen=True)
+class Rasterisation:
+    """How triangles are drawn with a z-buffer; what that may do to first hits is derived in rasterisation.py."""
+
+    subpixel_bits: int
+    """Corners are snapped to 2^-subpixel_bits of a pixel to tell what they cover."""
+    depth_bits: int
+    """Depths are kept to 2^-depth_bits of the way from the near to the far plane (view_volume.py)."""
+
+    def in_words(self) -> str:
+        """One clause."""
+        grid = f"with corners snapped to 2^-{self.subpixel_bits} of a pixel"
+        return f"drawn {grid}, in a z-buffer of {self.depth_bits} bits between planes tight around what is seen"
+
+
+@dataclass(frozen=True)
 class ErrorModel:
     """How a renderer's result may differ from the truth by its arithmetic alone; the same for all scenes."""
 
@@ -72,11 +87,8 @@ class ErrorModel:
     """Which formula decides whether a ray meets a triangle: the truth's own, or one of triangle_tests.py."""
     image_radius: float = 0.0
     """A pixel's ray may go through any point within so many pixels of its centre, in x and in y."""
-    depth_bits: int | None = None
-    """Bits of the z-buffer where triangles are drawn rather than rays traced (rasterisation.py); None: no such renderer.
-
-    The image radius is then half a step of the grid that corners are snapped to. Only first hits are modelled.
-    """
+    rasterisation: Rasterisation | None = None
+    """Where triangles are drawn rather than rays traced. Only first hits are then modelled, not colours."""
     output: OutputModel = field(default_factory=OutputModel)
     random_choices: str = ""
     """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""
@@ -92,14 +104,13 @@ class ErrorModel:
         """Each field as a clause, by what it is about."""
         shortened = f"{self.shadow_shortening:.3g} of the distance before the light"
         around = f"within {self.image_radius:.3g} pixels of a pixel's centre, in x and in y"
-        drawn = f"drawn into a z-buffer of {self.depth_bits} bits between planes tight around what is seen"
         near = f"{self.shadow_tolerance:.3g} from the surface or the light may throw a shadow or none"
         return {
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
             "camera rays go": around if self.image_radius > 0.0 else "through the centres of pixels",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
-            "triangles": f"{self.triangle_test} test" if self.depth_bits is None else drawn,
+            "triangles": self.rasterisation.in_words() if self.rasterisation else f"{self.triangle_test} test",
             "rays that leave a surface start": self.ray_offset.in_words(),
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",
             "what is near": f"nearer than {near}" if self.shadow_tolerance > 0.0 else "throws shadows as all else",

@@ -81,7 +81,7 @@ def feasible_set(
     with ctx.workprec(ctx.prec):  # both ways of following rays set it
         plain = PixelEvaluator(PlainRays(scene, error_model, overrides), bound, FLOAT32_BITS)
         # A rasteriser's model tells of first hits alone.
-        has_colors = error_model.depth_bits is None
+        has_colors = error_model.rasterisation is None
         colors: list[_Colors | None] = []
         hits = []
         for pixel in pixels:

@@ -5,12 +5,13 @@ to a grid. Then it asks whether a pixel's centre c is in the moved triangle. Let
 the moved one, each corner by δ at most in x and in y. If c is in P', it is Σ λᵢ Pᵢ' with weights λᵢ >= 0 of sum 1, and
 Σ λᵢ Pᵢ is a point of P that is within δ of c. If c is not in P', not all of the square of half width δ around c is
 inside P: on the way from P to P' no point of the boundary moves by more than δ, so it would never meet c, around which
-it winds once. So whatever the rasteriser decides, some ray through that square decides, and meets the triangle where
-the moved one has its depth at c. The same holds in space, for rays moved to the side by as much as the corners are.
-So a pixel is a bundle of rays, and only an edge that goes through the bundle leaves open what it shows.
+it winds once. So whatever the rasteriser decides, some ray through that square decides. The same holds in space, for
+rays moved to the side by as much as the corners are. So a pixel is a bundle of rays, and only where an edge goes
+through the bundle is it open what it shows.
 
-The depth is interpolated in the window, where it is linear, and kept in so many bits: depth_interpolation.py bounds
-what is lost on the way. The functions here that say so are overrides, as in ray_offsets.py.
+The depth is that of the plane through the corners, which float32 has rounded but nothing snapped, at c. How it is
+interpolated and kept loses a little more (depth_interpolation.py). The functions here that say so are overrides, as in
+ray_offsets.py.
 """
 
 from __future__ import annotations
@@ -18,100 +19,107 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from flint import arb
 
 from comparisons.depth_interpolation import depth_errors, movement_in_space, window_error
 from comparisons.triangle_tests import moeller_trumbore_distance
-from comparisons.view_volume import view_volume
+from comparisons.view_volume import camera_axes, half_extent, view_volume
 from reference_tracer.bounding_volume import certainly_less, clip
 from reference_tracer.features import PERSPECTIVE
 from reference_tracer.scene_data import TRIANGLE_A, TRIANGLE_B, TRIANGLE_C, vector_of
 from reference_tracer.triangle import triangle_distance
-from reference_tracer.vector import add, along, normalize, subtract
+from reference_tracer.vector import add, cross, dot, scale, subtract
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from comparisons.error_model import ErrorModel
-    from reference_tracer.camera import Frame
+    from comparisons.error_model import Rasterisation
     from reference_tracer.numbers import Scalar, Vector
     from reference_tracer.scene_data import SceneData
     from scenes.scene import Scene
 
-image_spread: list[Scalar] = [0.0, 0.0]
-"""In pixels, to the right and down."""
-origin_spread: list[Scalar] = [0.0, 0.0, 0.0]
+origin_spread: Vector = (0.0, 0.0, 0.0)
+"""From a camera ray's origin to those of its bundle."""
+direction_spread: Vector = (0.0, 0.0, 0.0)
+corner_spread: Vector = (0.0, 0.0, 0.0)
+"""From a corner to what float32 makes of it."""
+beyond: list[Scalar] = []
+"""Of each triangle: how often that counts at a pixel's centre that is a little outside."""
 depth_error: list[Scalar] = []
 """Of each triangle: of the distance, or with perspective of its inverse."""
 
 
-def rasterisation_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
+def rasterisation_overrides(rasterisation: Rasterisation | None) -> dict[str, Callable[..., Any]]:
     """The functions of the tracer's source that a rasteriser's way replaces."""
-    if error_model.depth_bits is None:
+    if rasterisation is None:
         return {}
     return {
-        "primary_ray": bundle_of_rays,
-        "distance_to_triangle": interpolated_distance,
-        "box_is_missed": box_is_missed_at_any_distance,
-        # The truth's own test keeps the distance between those of the corners, and a rasteriser does not.
+        "distance_to_triangle": drawn_distance,
+        "box_is_missed": box_is_missed_by_bundle,
+        # The truth's own test takes its time for rays that hit an edge exactly.
         "triangle_distance": moeller_trumbore_distance,
     }
 
 
-def rasterisation_constants(error_model: ErrorModel, scene: Scene) -> dict[str, Any]:
-    """The constants of the overrides by name, as lists of balls about 0."""
-    if error_model.depth_bits is None:
+def rasterisation_constants(rasterisation: Rasterisation | None, scene: Scene) -> dict[str, Any]:
+    """The constants of the overrides by name, as lists of balls."""
+    if rasterisation is None:
         return {}
     volume = view_volume(scene)
+    snapping = 2.0 ** -(rasterisation.subpixel_bits + 1)
+    errors = depth_errors(scene, volume, snapping)
+    moved = [movement_in_space(scene, volume)] * 3
+    right, up, _ = camera_axes(scene)
+    pixel = 2 * half_extent(scene)[1] / scene.camera.height
+    in_image = (snapping + window_error(scene)) * pixel * (np.abs(right) + np.abs(up))
+    # A direction has length 1 and its point of the image plane is no nearer than that, so that this is enough.
+    is_perspective = scene.camera.projection == "perspective"
+    origin, direction = (moved, in_image) if is_perspective else (np.add(moved, in_image), np.zeros(3))
     # Depth in the window, from 0 to 1, is linear in the distance, or with perspective in its inverse; times the cosine
     # between the ray and the forward direction, which is at most 1.
-    is_perspective = scene.camera.projection == "perspective"
     unit = 1 / volume.near - 1 / volume.far if is_perspective else volume.far - volume.near
-    errors = depth_errors(scene, volume, error_model.image_radius) + 2.0**-error_model.depth_bits
     return {
-        "image_spread": [arb(0, window_error(scene))] * 2,
-        "origin_spread": [arb(0, movement_in_space(scene, volume))] * 3,
-        "depth_error": [arb(0, float(error) * unit) for error in errors],
+        "origin_spread": _about_zero(origin),
+        "direction_spread": _about_zero(direction),
+        "corner_spread": _about_zero(moved),
+        "beyond": [arb(float(factor)) for factor in errors.beyond],
+        "depth_error": _about_zero((errors.bounds + 2.0**-rasterisation.depth_bits) * unit),
     }
 
 
-def bundle_of_rays(frame: Frame, x: Scalar, y: Scalar) -> tuple[Vector, Vector]:
-    """All rays that a pixel stands for."""
-    position, corner, pixel_right, pixel_down, forward = frame
-    on_image = along(along(corner, pixel_right, x + image_spread[0]), pixel_down, y + image_spread[1])
-    start = add(position, (origin_spread[0], origin_spread[1], origin_spread[2]))
-    if PERSPECTIVE:
-        return start, normalize(on_image)
-    return add(start, on_image), forward
+def _about_zero(radii: Any) -> list[Any]:
+    return [arb(0, float(radius)) for radius in radii]
 
 
-def interpolated_distance(scene: SceneData, origin: Vector, direction: Vector, left: int, triangle: int) -> Scalar:
-    """The distance to a triangle, as it comes out of the z-buffer."""
+def drawn_distance(scene: SceneData, origin: Vector, direction: Vector, left: int, triangle: int) -> Scalar:
+    """The distance to a triangle that the bundle meets, as it comes out of the z-buffer."""
     if triangle == left:
         return inf
-    distance = triangle_distance(
-        origin,
-        direction,
-        vector_of(scene, TRIANGLE_A, triangle),
-        vector_of(scene, TRIANGLE_B, triangle),
-        vector_of(scene, TRIANGLE_C, triangle),
-    )
-    if distance < inf:
-        if PERSPECTIVE:
-            return 1.0 / (1.0 / distance + depth_error[triangle])
-        return distance + depth_error[triangle]
-    return inf
+    a = vector_of(scene, TRIANGLE_A, triangle)
+    b = vector_of(scene, TRIANGLE_B, triangle)
+    c = vector_of(scene, TRIANGLE_C, triangle)
+    if triangle_distance(add(origin, origin_spread), add(direction, direction_spread), a, b, c) == inf:
+        return inf
+    moved = add(a, scale(corner_spread, beyond[triangle]))
+    normal = cross(subtract(b, a), subtract(c, a))
+    distance = dot(subtract(moved, origin), normal) / dot(direction, normal)
+    if PERSPECTIVE:
+        return 1.0 / (1.0 / distance + depth_error[triangle])
+    return distance + depth_error[triangle]
 
 
-def box_is_missed_at_any_distance(origin: Vector, direction: Vector, low: Vector, high: Vector, end: Scalar) -> bool:  # noqa: ARG001 - the signature of the function it stands for
+def box_is_missed_by_bundle(origin: Vector, direction: Vector, low: Vector, high: Vector, end: Scalar) -> bool:  # noqa: ARG001 - the signature of the function it stands for
     """Whether no ray of the bundle meets the box, however far away: what is in it may yet win by its error of depth."""
-    to_low = subtract(low, origin)
-    to_high = subtract(high, origin)
+    start = add(origin, origin_spread)
+    toward = add(direction, direction_spread)
+    to_low = subtract(low, start)
+    to_high = subtract(high, start)
     entry = 0.0
     leave = inf
     for axis in range(3):
-        if certainly_less(0.0, direction[axis]):
-            entry, leave = clip(entry, leave, direction[axis], to_low[axis], to_high[axis])
-        elif certainly_less(direction[axis], 0.0):
-            entry, leave = clip(entry, leave, direction[axis], to_high[axis], to_low[axis])
+        if certainly_less(0.0, toward[axis]):
+            entry, leave = clip(entry, leave, toward[axis], to_low[axis], to_high[axis])
+        elif certainly_less(toward[axis], 0.0):
+            entry, leave = clip(entry, leave, toward[axis], to_high[axis], to_low[axis])
     return certainly_less(leave, entry)

@@ -167,7 +167,7 @@ def _overrides(error_model: ErrorModel) -> Overrides:
     return {
         **offset_overrides(error_model),
         **triangle_test_overrides(error_model),
-        **rasterisation_overrides(error_model),
+        **rasterisation_overrides(error_model.rasterisation),
     }
 
 
@@ -175,7 +175,7 @@ def _constants(error_model: ErrorModel, scene: Scene) -> dict[str, Any]:
     return {
         **offset_constants(error_model),
         **triangle_test_constants(),
-        **rasterisation_constants(error_model, scene),
+        **rasterisation_constants(error_model.rasterisation, scene),
     }
 
 

@@ -40,18 +40,22 @@ class ViewVolume:
 
 def homogeneous_corners(scene: Scene) -> Array:
     """The corners of all triangles as (x, y, w, depth, 1), shape (n, 3, 5); w is the depth, or 1 without perspective."""
-    camera = scene.camera
-    forward = np.subtract(camera.look_at, camera.position)
-    forward /= np.linalg.norm(forward)
-    right = np.cross(forward, camera.up)
-    right /= np.linalg.norm(right)
-    from_camera = triangles_of_scene(scene) - np.array(camera.position)
+    right, up, forward = camera_axes(scene)
+    half_width, half_height = half_extent(scene)
+    from_camera = triangles_of_scene(scene) - np.array(scene.camera.position)
     depth = from_camera @ forward
     one = np.ones_like(depth)
-    half_width, half_height = half_extent(scene)
-    x = from_camera @ right / half_width
-    y = from_camera @ np.cross(right, forward) / half_height
-    return np.stack([x, y, depth if camera.projection == "perspective" else one, depth, one], axis=-1)
+    w = depth if scene.camera.projection == "perspective" else one
+    return np.stack([from_camera @ right / half_width, from_camera @ up / half_height, w, depth, one], axis=-1)
+
+
+def camera_axes(scene: Scene) -> tuple[Array, Array, Array]:
+    """Unit vectors to the right, up and forward."""
+    forward = np.subtract(scene.camera.look_at, scene.camera.position)
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, scene.camera.up)
+    right /= np.linalg.norm(right)
+    return right, np.cross(right, forward), forward
 
 
 def half_extent(scene: Scene) -> tuple[float, float]:

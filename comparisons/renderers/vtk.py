@@ -1,0 +1,140 @@
+"""VTK through pyvista: the pipeline in object order, "for each triangle, for each pixel", with a z-buffer.
+
+It gives first hits only. VTK's lights throw no shadows, and its colours have 8 bits.
+"""
+
+from __future__ import annotations
+
+import functools
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from comparisons.error_model import ErrorModel, Rasterisation
+from comparisons.isolation import run_isolated
+from comparisons.renderer import FirstHits, Integrator, Rays, RendererError, Rendering
+from comparisons.renderers.vtk_job import JOB_FILE, RESULT_FILE, TASK_FILE, Job
+from comparisons.view_volume import view_volume
+from comparisons.worker_results import read_arrays
+from scenes.exporters.triangle_soup import triangles_of_scene
+from scenes.shapes import Sphere
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from scenes.scene import Scene
+
+# llvmpipe's positions have FIXED_ORDER = 8 bits behind the point (Mesa, src/gallium/drivers/llvmpipe/lp_rast.h).
+SUBPIXEL_BITS = 8
+# The least that VTK's framebuffer has (vtkOpenGLRenderWindow::CreateFramebuffers asks for 32, and drivers may give 24).
+DEPTH_BITS = 24
+
+# Drawing takes milliseconds, starting Python and VTK some seconds; a hang must not stop a run for long.
+TIME_LIMIT = 60.0
+# Of address space. Half a million triangles, the most that a scene may have, take less than 1 GB; Mesa's threads and
+# LLVM's code reserve more than they use.
+MEMORY_LIMIT = 8 << 30
+
+FIRST_HITS = Integrator("first-hits", "E", gives="first hits")
+
+TRIAL_TRIANGLE = np.array([[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]]])
+TRIAL_JOB = Job(
+    width=8,
+    height=8,
+    position=(0.0, 0.0, 2.0),
+    look_at=(0.0, 0.0, 0.0),
+    up=(0.0, 1.0, 0.0),
+    view_angle=None,
+    parallel_scale=1.0,
+    near=1.0,
+    far=3.0,
+)
+
+
+class Vtk:
+    """VTK's first hits, obeying comparisons.renderer.Renderer."""
+
+    name = "vtk"
+    integrators = (FIRST_HITS,)
+    error_model = ErrorModel(
+        description="triangles drawn in float32 (VTK 9.7 with Mesa's llvmpipe)",
+        precision_bits=24,
+        rasterisation=Rasterisation(SUBPIXEL_BITS, DEPTH_BITS),
+    )
+    install = "pip install pyvista, and for Mesa's software renderer: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri"
+
+    def version(self) -> str | None:
+        """Versions of pyvista, VTK and Mesa, or None where a trial in a process of its own fails."""
+        return _trial()
+
+    def refuses(self, scene: Scene) -> str | None:
+        """Why the scene is not one of triangles in empty space, in front of the camera."""
+        if any(isinstance(shape, Sphere) for shape in scene.objects):
+            return "VTK draws triangles and no spheres"
+        if scene.camera.inside is not None:
+            return "its camera is inside a dielectric, and VTK knows no media"
+        if scene.camera.projection == "perspective" and view_volume(scene).near <= 0.0:
+            return "its camera is in a surface, and VTK's near plane must be in front of all that is seen"
+        return None
+
+    def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature
+        """Never."""
+        return False
+
+    def render(self, scene: Scene, integrator: str, depth: int, rays: Rays, folder: Path) -> Rendering:  # noqa: ARG002 - as above
+        """First hits from a process of its own; `depth` does not matter.
+
+        The distance along a ray is the depth over the cosine between it and the forward direction. Raises
+        RendererError.
+        """
+        camera = scene.camera
+        volume = view_volume(scene)
+        is_perspective = camera.projection == "perspective"
+        job = Job(
+            width=camera.width,
+            height=camera.height,
+            position=camera.position,
+            look_at=camera.look_at,
+            up=camera.up,
+            view_angle=camera.vertical_field_of_view if is_perspective else None,
+            parallel_scale=1.0 if is_perspective else camera.view_height / 2,
+            near=volume.near,
+            far=volume.far,
+        )
+        result = _run(job, triangles_of_scene(scene), folder)
+        primitive = result["primitive"]
+        missed = primitive < 0
+        forward = np.subtract(camera.look_at, camera.position)
+        cosine = rays.directions @ forward / np.linalg.norm(forward)
+        distance = np.where(missed, np.inf, result["depth"] / cosine)
+        with np.errstate(invalid="ignore"):  # of what missed
+            position = rays.origins + distance[..., np.newaxis] * rays.directions
+        normal = result["normals"][np.minimum(primitive, len(result["normals"]) - 1)]
+        position[missed] = normal[missed] = np.nan
+        return Rendering(None, float(result["seconds"]), FirstHits(distance, position, normal, primitive))
+
+
+def _run(job: Job, triangles: NDArray[np.float64], folder: Path) -> dict[str, NDArray[Any]]:
+    """The worker's arrays, of the right shapes; a result of an earlier run is not taken for its own."""
+    (folder / RESULT_FILE).unlink(missing_ok=True)
+    (folder / JOB_FILE).write_text(job.model_dump_json(indent=2), encoding="utf-8")
+    np.savez(folder / TASK_FILE, allow_pickle=False, triangles=triangles)
+    command = [sys.executable, "-P", "-m", "comparisons.renderers.vtk_worker"]
+    run_isolated(command, folder, seconds=TIME_LIMIT, memory_bytes=MEMORY_LIMIT)
+    size = (job.height, job.width)
+    expected: dict[str, tuple[int, ...]] = {"primitive": size, "depth": size, "normals": triangles.shape[:2]}
+    return read_arrays(folder / RESULT_FILE, expected | {"seconds": (), "version": ()}, "VTK")
+
+
+@functools.cache
+def _trial() -> str | None:
+    """The versions if VTK draws a triangle here; tried once a process."""
+    with TemporaryDirectory(prefix="raytruth-") as name:
+        try:
+            result = _run(TRIAL_JOB, TRIAL_TRIANGLE, Path(name))
+        except RendererError:
+            return None
+        return str(result["version"])
