@@ -33,9 +33,9 @@ clean: ## Remove the environment and all caches; results/ stays
 
 # The stamps: an environment is made again only when what it is made from has changed.
 .venv/run.stamp: pyproject.toml constraints.txt tools/make_environment.sh
-	@bash tools/make_environment.sh '.[embree]' libllvm19 povray
+	@bash tools/make_environment.sh '.[embree,vtk]' libllvm19 povray libegl1 libgl1-mesa-dri
 	@touch $@
 
 .venv/test.stamp: pyproject.toml constraints.txt tools/make_environment.sh
-	@bash tools/make_environment.sh '.[test]' libllvm19 povray chromium
+	@bash tools/make_environment.sh '.[test]' libllvm19 povray libegl1 libgl1-mesa-dri chromium
 	@touch $@ .venv/run.stamp

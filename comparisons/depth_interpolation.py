@@ -1,4 +1,4 @@
-"""What float32 may do to corners of triangles and to depths on their way into a z-buffer, in VTK and in Mesa's llvmpipe.
+"""What float32 may do to corners of triangles and to depths on their way into a z-buffer, with VTK and Mesa's llvmpipe.
 
 Corners are transformed to clip coordinates by one matrix, cut where they reach beyond the guard band or the near and
 far planes, divided by w, and put into the window; depths are interpolated there. Everything in units of u, the
@@ -7,6 +7,7 @@ roundoff. Bounds are of first order in u, and rounded up to hold those of higher
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -23,6 +24,8 @@ from comparisons.view_volume import (
 from scenes.exporters.triangle_soup import triangles_of_scene
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from comparisons.view_volume import ViewVolume
     from scenes.scene import Scene
 
@@ -49,13 +52,14 @@ def movement_in_space(scene: Scene, volume: ViewVolume) -> float:
     A row of the view matrix is a unit vector r and its product with the camera's position p. So γ roundoffs move what
     the point has along r by γu·(|v| + |p|) at most, and each of its coordinates by √3 times that.
     """
-    cut = _cut(homogeneous_corners(scene), volume).any()
-    return (CLIPPING_ROUNDOFFS if cut else TRANSFORM_ROUNDOFFS) * ROUNDOFF * _extent(scene) * 3.0**0.5
+    is_cut = _cut(homogeneous_corners(scene), volume).any()
+    roundoffs = CLIPPING_ROUNDOFFS if is_cut else TRANSFORM_ROUNDOFFS
+    return roundoffs * ROUNDOFF * _extent(scene) * math.sqrt(3)
 
 
 @dataclass(frozen=True)
 class DepthErrors:
-    """Of each triangle, at any pixel that it may cover; shape (n,). Infinity for one that is seen too nearly edge on."""
+    """Of each triangle, at any pixel that it may cover; shape (n,). Infinity for one seen too nearly edge on."""
 
     bounds: Array
     """On the error of the depth in the window, in units of the range from near to far."""
@@ -161,7 +165,7 @@ def _kept(volume: ViewVolume) -> Array:
     return np.concatenate([IN_GUARD_BAND, volume.half_spaces()])
 
 
-def _cut(corners: Array, volume: ViewVolume) -> Array:
+def _cut(corners: Array, volume: ViewVolume) -> NDArray[np.bool_]:
     """Which triangles are not drawn whole."""
     return ~is_inside(corners, _kept(volume))
 

@@ -25,7 +25,7 @@ from flint import arb
 from comparisons.depth_interpolation import depth_errors, movement_in_space, window_error
 from comparisons.triangle_tests import moeller_trumbore_distance
 from comparisons.view_volume import camera_axes, half_extent, view_volume
-from reference_tracer.bounding_volume import certainly_less, clip
+from reference_tracer.bounding_volume import certainly_less, certainly_zero, clip
 from reference_tracer.features import PERSPECTIVE
 from reference_tracer.scene_data import TRIANGLE_A, TRIANGLE_B, TRIANGLE_C, vector_of
 from reference_tracer.triangle import triangle_distance
@@ -122,4 +122,6 @@ def box_is_missed_by_bundle(origin: Vector, direction: Vector, low: Vector, high
             entry, leave = clip(entry, leave, toward[axis], to_low[axis], to_high[axis])
         elif certainly_less(toward[axis], 0.0):
             entry, leave = clip(entry, leave, toward[axis], to_high[axis], to_low[axis])
+        elif certainly_zero(toward[axis]) and (certainly_less(0.0, to_low[axis]) or certainly_less(to_high[axis], 0.0)):
+            return True
     return certainly_less(leave, entry)

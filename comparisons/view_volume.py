@@ -19,9 +19,7 @@ Array = NDArray[np.float64]
 MARGIN = 2.0**-10
 
 # Half-spaces a·p >= 0 of homogeneous points p = (x, y, w, depth, 1), where the picture is |x| <= w, |y| <= w.
-IN_PICTURE = np.array(
-    [[1.0, 0, 1, 0, 0], [-1.0, 0, 1, 0, 0], [0, 1.0, 1, 0, 0], [0, -1.0, 1, 0, 0], [0, 0, 0, 1.0, 0]]
-)
+IN_PICTURE = np.array([[1.0, 0, 1, 0, 0], [-1.0, 0, 1, 0, 0], [0, 1.0, 1, 0, 0], [0, -1.0, 1, 0, 0], [0, 0, 0, 1.0, 0]])
 # Mesa's draw module cuts at twice the picture (draw_cliptest_tmp.h, DO_CLIP_XY_GUARD_BAND).
 IN_GUARD_BAND = np.array([[0.5, 0, 1, 0, 0], [-0.5, 0, 1, 0, 0], [0, 0.5, 1, 0, 0], [0, -0.5, 1, 0, 0]])
 
@@ -39,7 +37,7 @@ class ViewVolume:
 
 
 def homogeneous_corners(scene: Scene) -> Array:
-    """The corners of all triangles as (x, y, w, depth, 1), shape (n, 3, 5); w is the depth, or 1 without perspective."""
+    """The corners of all triangles as (x, y, w, depth, 1), shape (n, 3, 5); w is the depth, or 1 for parallel rays."""
     right, up, forward = camera_axes(scene)
     half_width, half_height = half_extent(scene)
     from_camera = triangles_of_scene(scene) - np.array(scene.camera.position)
@@ -81,8 +79,7 @@ def view_volume(scene: Scene) -> ViewVolume:
 
 def is_inside(corners: Array, half_spaces: Array) -> NDArray[np.bool_]:
     """Which of the triangles, shape (n, 3, 5), lie in all half-spaces."""
-    inside: NDArray[np.bool_] = (corners @ half_spaces.T >= 0).all(axis=(1, 2))
-    return inside
+    return np.asarray((corners @ half_spaces.T >= 0).all(axis=(1, 2)))
 
 
 def clipped(polygon: Array, half_spaces: Array) -> Array:

@@ -9,6 +9,7 @@ from comparisons.renderers.embree import embree, embree_robust
 from comparisons.renderers.mitsuba import mitsuba_llvm, mitsuba_scalar
 from comparisons.renderers.povray import PovRay
 from comparisons.renderers.reference import ReferenceTracer
+from comparisons.renderers.vtk import Vtk
 from scenes.wording import quoted, suggestion
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ def all_renderers() -> dict[str, Renderer]:
         PovRay(),
         embree(),
         embree_robust(),
+        Vtk(),
         ClosedFormRenderer(),
         ReferenceTracer(),
     )

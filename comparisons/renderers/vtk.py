@@ -47,8 +47,7 @@ TRIAL_JOB = Job(
     position=(0.0, 0.0, 2.0),
     look_at=(0.0, 0.0, 0.0),
     up=(0.0, 1.0, 0.0),
-    view_angle=None,
-    parallel_scale=1.0,
+    view_height=2.0,
     near=1.0,
     far=3.0,
 )
@@ -64,7 +63,7 @@ class Vtk:
         precision_bits=24,
         rasterisation=Rasterisation(SUBPIXEL_BITS, DEPTH_BITS),
     )
-    install = "pip install pyvista, and for Mesa's software renderer: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri"
+    install = "pip install pyvista, and Mesa's software renderer: apt-get install libegl1 libgl1-mesa-dri"
 
     def version(self) -> str | None:
         """Versions of pyvista, VTK and Mesa, or None where a trial in a process of its own fails."""
@@ -92,17 +91,19 @@ class Vtk:
         """
         camera = scene.camera
         volume = view_volume(scene)
-        is_perspective = camera.projection == "perspective"
+        if camera.projection == "perspective":
+            extent = {"view_angle": camera.vertical_field_of_view}
+        else:
+            extent = {"view_height": camera.view_height}
         job = Job(
             width=camera.width,
             height=camera.height,
             position=camera.position,
             look_at=camera.look_at,
             up=camera.up,
-            view_angle=camera.vertical_field_of_view if is_perspective else None,
-            parallel_scale=1.0 if is_perspective else camera.view_height / 2,
             near=volume.near,
             far=volume.far,
+            **extent,
         )
         result = _run(job, triangles_of_scene(scene), folder)
         primitive = result["primitive"]

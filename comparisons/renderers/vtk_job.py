@@ -23,10 +23,10 @@ class Job(BaseModel):
     position: Vector
     look_at: Vector
     up: Vector
-    view_angle: float | None
+    view_angle: float | None = None
     """Vertical, in degrees; None: parallel rays."""
-    parallel_scale: float
-    """Half the height that is seen, for parallel rays."""
+    view_height: float = 1.0
+    """What is seen of it by parallel rays."""
     near: float
     """Depths along the forward direction of what is drawn."""
     far: float

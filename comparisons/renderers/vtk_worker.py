@@ -13,17 +13,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-# The error model is that of Mesa's rasteriser, which runs everywhere: no screen, and no graphics card's own. Both are
-# read when VTK makes its window.
+# The error model is that of Mesa's software rasteriser, which runs everywhere: no screen, and no graphics card. Both
+# are looked up when VTK makes its window.
 os.environ.pop("DISPLAY", None)
 os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
 
-import pyvista  # noqa: E402 - after the environment is set
-from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402 - as above
-from vtkmodules.vtkCommonCore import vtkFloatArray  # noqa: E402 - as above
-from vtkmodules.vtkRenderingCore import vtkPolyDataMapper  # noqa: E402 - as above
+import pyvista
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkFloatArray
+from vtkmodules.vtkRenderingCore import vtkPolyDataMapper
 
-from comparisons.renderers.vtk_job import JOB_FILE, RESULT_FILE, TASK_FILE, Job  # noqa: E402 - as above
+from comparisons.renderers.vtk_job import JOB_FILE, RESULT_FILE, TASK_FILE, Job
 
 Array = NDArray[Any]
 
@@ -76,7 +76,7 @@ def plotter_of(job: Job, mesh: pyvista.PolyData) -> pyvista.Plotter:
     camera = plotter.camera
     camera.position, camera.focal_point, camera.up = job.position, job.look_at, job.up
     camera.parallel_projection = job.view_angle is None
-    camera.parallel_scale = job.parallel_scale
+    camera.parallel_scale = job.view_height / 2
     if job.view_angle is not None:
         camera.view_angle = job.view_angle
     plotter.camera_set = True
@@ -97,9 +97,9 @@ def drawn_depths(plotter: pyvista.Plotter, job: Job) -> Array:
     """Along the forward direction, from the z-buffer."""
     values = vtkFloatArray()
     plotter.render_window.GetZbufferData(0, 0, job.width - 1, job.height - 1, values)
-    z = vtk_to_numpy(values).reshape(job.height, job.width)[::-1].astype(np.float64)
+    z: Array = vtk_to_numpy(values).reshape(job.height, job.width)[::-1].astype(np.float64)
     if job.view_angle is None:
-        return job.near + z * (job.far - job.near)
+        return np.asarray(job.near + z * (job.far - job.near))
     return 1 / (1 / job.near - z * (1 / job.near - 1 / job.far))
 
 
@@ -125,7 +125,8 @@ def version_of(plotter: pyvista.Plotter) -> str:
     if not drawn_with.startswith("llvmpipe"):
         raise RuntimeError(f"VTK draws with {drawn_with} here, and the error model is that of Mesa's llvmpipe")
     mesa = capabilities.get("OpenGL version string", "").partition("Mesa")[2].strip()
-    return f"pyvista {pyvista.__version__}, VTK {pyvista.vtk_version_info}, Mesa {mesa}"
+    vtk = ".".join(str(number) for number in pyvista.vtk_version_info)
+    return f"pyvista {pyvista.__version__}, VTK {vtk}, Mesa {mesa}"
 
 
 if __name__ == "__main__":
