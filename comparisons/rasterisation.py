@@ -23,7 +23,6 @@ import numpy as np
 from flint import arb
 
 from comparisons.depth_interpolation import depth_errors, movement_in_space, window_error
-from comparisons.triangle_tests import moeller_trumbore_distance
 from comparisons.view_volume import camera_axes, half_extent, view_volume
 from reference_tracer.bounding_volume import certainly_less, certainly_zero, clip
 from reference_tracer.features import PERSPECTIVE
@@ -57,8 +56,6 @@ def rasterisation_overrides(rasterisation: Rasterisation | None) -> dict[str, Ca
     return {
         "distance_to_triangle": drawn_distance,
         "box_is_missed": box_is_missed_by_bundle,
-        # The truth's own test takes its time for rays that hit an edge exactly.
-        "triangle_distance": moeller_trumbore_distance,
     }
 
 

@@ -30,7 +30,7 @@ def triangle_scene(seed: int, projection: dict[str, Any], triangles: int = 16) -
     objects = []
     for _ in range(triangles):
         middle = away + [numbers.uniform(-1, 1) for _ in range(3)]
-        size = 2.0 ** numbers.uniform(0, 1.5)
+        size = 2.0 ** numbers.uniform(0.5, 1.5)
         corners = [tuple(middle + [size * numbers.uniform(-0.5, 0.5) for _ in range(3)]) for _ in range(3)]
         objects.append({"shape": "triangle", "vertices": corners, "material": "m"})
     camera = {"position": tuple(away + [0.3, 0.4, 5.0]), "look_at": tuple(away), "width": 24, "height": 18}

@@ -4,7 +4,7 @@ from dataclasses import fields
 
 import pytest
 
-from comparisons.error_model import ErrorModel, RayOffset
+from comparisons.error_model import ErrorModel, Rasterisation, RayOffset
 from comparisons.renderers.catalogue import all_renderers
 from scenes.library import library_names, open_scene
 
@@ -29,6 +29,12 @@ CLAUSES = {
 @pytest.mark.parametrize("offset", CLAUSES, ids=RayOffset.in_words)
 def test_a_ray_offset_is_told_in_words(offset: RayOffset) -> None:
     assert offset.in_words() == CLAUSES[offset]
+
+
+def test_how_triangles_are_drawn_is_told_in_words() -> None:
+    words = ErrorModel("", 24, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=16)).in_words()["triangles"]
+    assert "snapped to 2^-8 of a pixel" in words
+    assert "z-buffer of 16 bits" in words
 
 
 def test_offsets_that_no_renderer_can_have_are_refused() -> None:

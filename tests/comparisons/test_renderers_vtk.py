@@ -140,7 +140,7 @@ def test_what_it_cannot_draw_is_refused() -> None:
     inside = build(materials={"m": GLASS}, objects=[ROOF], camera=scene.camera.model_dump() | {"inside": "m"})
     assert "no media" in str(vtk.refuses(inside))
     x, y, z = scene.camera.position
-    around = {"shape": "triangle", "vertices": ((x - 3, y - 3, z), (x + 3, y - 3, z), (x, y + 3, z)), "material": "m"}
+    around = {"shape": "triangle", "vertices": ((x, y, z), (0.5, 0.0, 0.0), (0.0, 0.0, 0.5)), "material": "m"}
     assert "in a surface" in str(vtk.refuses(build(objects=[around], camera=scene.camera.model_dump())))
 
 

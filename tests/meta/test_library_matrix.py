@@ -13,6 +13,7 @@ import pytest
 from reference_tracer.certified_image import certified_image, largest_value
 from scenes.library import library_names, open_scene
 from scenes.requirements import Feature, required_features
+from scenes.shapes import Sphere
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -78,6 +79,19 @@ def test_povray_confirms_every_whitted_scene_that_it_can_express(results: dict[s
     assert whitted - passing == {"several-lights-sphere"}  # of four lights one has a polynomial attenuation
     assert {"tinted-glass", "camera-under-water", "total-reflection-prism", "trefoil-knot"} <= passing
     assert len(passing) >= 36
+
+
+def test_vtk_passes_every_scene_of_triangles(results: dict[str, Any]) -> None:
+    cells = [cell for cell in results["cells"] if cell["renderer"] == "vtk"]
+    if not REQUIRE_ALL and any(cell["verdict"] == "unavailable" for cell in cells):
+        pytest.skip("VTK cannot draw here")
+    objects = {name: open_scene(name).objects for name in library_names()}
+    of_triangles = {name for name in objects if not any(isinstance(shape, Sphere) for shape in objects[name])}
+    passing = {cell["scene"]: cell["first_hits"] for cell in cells if cell["verdict"] == "pass"}
+    assert passing.keys() == of_triangles
+    for name, hits in passing.items():
+        assert hits["primitive_mismatches"] == 0, name
+        assert hits["ambiguous"] < hits["compared"] / 10, name
 
 
 def test_a_single_light_on_diffuse_surfaces_agrees_closely(results: dict[str, Any]) -> None:
