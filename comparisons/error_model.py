@@ -66,7 +66,7 @@ class Rasterisation:
     def in_words(self) -> str:
         """One clause."""
         grid = f"with corners snapped to 2^-{self.subpixel_bits} of a pixel"
-        return f"drawn {grid}, in a z-buffer of {self.depth_bits} bits between planes tight around what is seen"
+        return f"triangles {grid}, in a z-buffer of {self.depth_bits} bits between planes tight around what is seen"
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,8 @@ class ErrorModel:
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
             "camera rays go": around if self.image_radius > 0.0 else "through the centres of pixels",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
-            "triangles": self.rasterisation.in_words() if self.rasterisation else f"{self.triangle_test} test",
+            "triangles": f"{self.triangle_test} test",
+            "drawing": self.rasterisation.in_words() if self.rasterisation else "none: rays are traced",
             "rays that leave a surface start": self.ray_offset.in_words(),
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",
             "what is near": f"nearer than {near}" if self.shadow_tolerance > 0.0 else "throws shadows as all else",

@@ -33,7 +33,7 @@ def triangle_scene(seed: int, projection: dict[str, Any], triangles: int = 16) -
         size = 2.0 ** numbers.uniform(0.5, 1.5)
         corners = [tuple(middle + [size * numbers.uniform(-0.5, 0.5) for _ in range(3)]) for _ in range(3)]
         objects.append({"shape": "triangle", "vertices": corners, "material": "m"})
-    camera = {"position": tuple(away + [0.3, 0.4, 5.0]), "look_at": tuple(away), "width": 24, "height": 18}
+    camera = {"position": tuple(away + np.array([0.3, 0.4, 5.0])), "look_at": tuple(away), "width": 24, "height": 18}
     return build(objects=objects, camera=camera | projection)
 
 

@@ -32,7 +32,7 @@ def test_a_ray_offset_is_told_in_words(offset: RayOffset) -> None:
 
 
 def test_how_triangles_are_drawn_is_told_in_words() -> None:
-    words = ErrorModel("", 24, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=16)).in_words()["triangles"]
+    words = ErrorModel("", 24, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=16)).in_words()["drawing"]
     assert "snapped to 2^-8 of a pixel" in words
     assert "z-buffer of 16 bits" in words
 

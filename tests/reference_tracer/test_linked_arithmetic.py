@@ -121,3 +121,10 @@ def test_a_root_near_zero_is_as_wide_as_the_root_of_its_range() -> None:
         assert holds(root, 0.0)
         assert holds(root, 2.0 ** (-exponent / 2))
     assert all(second < first for first, second in pairwise(widths))
+
+
+def test_numbers_of_a_list_of_constants_are_each_its_own() -> None:
+    made = linked_arithmetic(BITS, Decisions(), {"spread": [arb(0, 1), arb(0, 1)]})
+    first, second = made.functions["spread"]
+    assert enclosure(first - first).rad() < 1e-6
+    assert enclosure(first - second).rad() >= 2
