@@ -11,34 +11,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.feasible_set import UNUSED
+from comparisons.image_judgement import judge_exact, judge_light_paths, judge_noisy, of_pixel_areas
 from comparisons.images import write_image
-from comparisons.judgement import (
-    UNJUDGED,
-    capped_in_words,
-    judge_first_hits,
-    judge_image,
-    judgement_of,
-    largest_error,
-    verdict_of,
-    verdict_of_first_hits,
-)
-from comparisons.lobes import find_lobes
-from comparisons.pixel_evidence import PixelEvidence, pixel_evidence, write_pixel_evidence
-from comparisons.radiance_bound import radiance_bound
+from comparisons.judgement import judge_first_hits, largest_error, verdict_of_first_hits
+from comparisons.pixel_evidence import write_pixel_evidence
 from comparisons.renderer import RendererError
-from comparisons.results import Cell, Images, Judgement, StochasticTest, Verdict
-from comparisons.stochastic import SIGNIFICANCE, compare_means
+from comparisons.results import Cell, Images, Verdict
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from comparisons.feasible_set import FeasibleSet
-    from comparisons.renderer import Image, Rays, Renderer, Rendering
-    from scenes.scene import Scene
+    from comparisons.image_judgement import Evidence
+    from comparisons.renderer import Integrator, Renderer, Rendering
 
 CELL_FILE = "cell.json"
 TRUTH_FILE = "truth.exr"
+AREA_MEANS_FILE = "area-means.exr"
 LOG_FILE = "log.txt"
 
 
@@ -66,16 +54,6 @@ class CellPlace:
         return f"raytruth run {shlex.quote(self.source)} --renderer {self.renderer} --fresh"
 
 
-@dataclass(frozen=True)
-class Evidence:
-    """What a scene's cells are judged by."""
-
-    scene: Scene
-    truth: NDArray[np.float64]
-    rays: Rays
-    feasible: FeasibleSet
-
-
 def run_cell(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence, directory: Path) -> Cell:
     """Render and judge in a temporary folder, which then takes the cell's place; a failed render is an error cell."""
     target = directory / place.folder
@@ -97,7 +75,7 @@ def run_cell(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidenc
 def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence, folder: Path) -> Cell:
     try:
         rendering = renderer.render(evidence.scene, place.integrator, depth, evidence.rays, folder)
-        _check_sizes(rendering, _gives(renderer, place.integrator), evidence.truth)
+        _check_sizes(rendering, _integrator(renderer, place.integrator).gives, evidence.truth)
     except RendererError as error:
         log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
         return Cell(**_names(place), version=place.version, verdict=Verdict.ERROR, reason=str(error), log=log)
@@ -115,10 +93,16 @@ def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence
             first_hits=hits,
             log=log,
         )
-    if rendering.batch_means is None:
-        judged = _judge_exact(rendering.image, evidence)
+    truth = f"cells/{place.scene}/{TRUTH_FILE}"
+    if _integrator(renderer, place.integrator).follows == "light paths":
+        evidence = of_pixel_areas(evidence)
+        truth = f"{place.folder}/{AREA_MEANS_FILE}"
+        write_image(folder / AREA_MEANS_FILE, evidence.truth.astype(np.float32))
+        judged = judge_light_paths(rendering, evidence)
+    elif rendering.batch_means is not None:
+        judged = judge_noisy(rendering, evidence)
     else:
-        judged = _judge_noisy(rendering.image, rendering.batch_means, rendering.samples, evidence)
+        judged = judge_exact(rendering.image, evidence)
     verdict, reason = judged.verdict, judged.reason
     if hits is not None and hits.failing:
         verdict = Verdict.FAIL
@@ -138,7 +122,7 @@ def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence
         first_hits=hits,
         images=Images(
             render=f"{place.folder}/render.exr",
-            truth=f"cells/{place.scene}/{TRUTH_FILE}",
+            truth=truth,
             tolerances=f"{place.folder}/tolerances.exr",
             feasible=f"{place.folder}/feasible.exr",
             variance=_write_variance(rendering, place, folder),
@@ -158,8 +142,8 @@ def _names(place: CellPlace) -> dict[str, str]:
     }
 
 
-def _gives(renderer: Renderer, integrator: str) -> str:
-    return next(known.gives for known in renderer.integrators if known.name == integrator)
+def _integrator(renderer: Renderer, name: str) -> Integrator:
+    return next(known for known in renderer.integrators if known.name == name)
 
 
 def _check_sizes(rendering: Rendering, gives: str, truth: NDArray[np.float64]) -> None:
@@ -177,58 +161,6 @@ def _check_sizes(rendering: Rendering, gives: str, truth: NDArray[np.float64]) -
             expected = truth.shape if name in {"position", "normal"} else truth.shape[:2]
             if values.shape != expected:
                 raise RendererError(f"expected {name} of first hits of shape {expected}, got {values.shape}")
-
-
-@dataclass(frozen=True)
-class _Judged:
-    """What came of an image."""
-
-    judgement: Judgement
-    test: StochasticTest | None
-    verdict: Verdict
-    reason: str
-    distances: NDArray[np.float64]
-    """Shape (height, width, 3)."""
-    pixels: PixelEvidence
-
-
-def _judge_exact(image: Image, evidence: Evidence) -> _Judged:
-    feasible = evidence.feasible
-    judgement, nearest = judge_image(image, evidence.truth, feasible)
-    pixels = pixel_evidence(feasible.low, feasible.high, nearest.places, feasible.merged)
-    return _Judged(judgement, None, *verdict_of(judgement), nearest.distances, pixels)
-
-
-def _judge_noisy(image: Image, batch_means: NDArray[np.float32], samples: int, evidence: Evidence) -> _Judged:
-    """The mean of many samples against the hull of each pixel's feasible set."""
-    bound = radiance_bound(evidence.scene)
-    assert bound is not None, "comparability.py lets no stochastic scene through without a bound"
-    unjudged = evidence.feasible.outcomes == 0
-    # A sample is rounded as all numbers are; one part in 2^20 is far above a float32 rounding of the largest.
-    # In the dark every sample is 0, which any bound holds.
-    most = (bound.at_camera or 1.0) * (1 + 2.0**-20)
-    low, high = evidence.feasible.hull()
-    low = np.where(unjudged[..., np.newaxis], 0.0, np.clip(low, 0.0, most))
-    high = np.where(unjudged[..., np.newaxis], most, np.clip(high, 0.0, most))
-    lobes = find_lobes(evidence.scene)
-    first_hit_is_certain = (evidence.feasible.hit_primitives != UNUSED).sum(axis=2) == 1
-    is_random = ~(lobes.sees_directly() & first_hit_is_certain)
-    outcome = compare_means(low, high, batch_means, samples, most, lobes, is_random)
-    # Exponents of these probabilities grow with the square of the distance, so that this is a distance, too.
-    with np.errstate(divide="ignore"):
-        distances = np.sqrt(np.log(outcome.p_values) / np.log(SIGNIFICANCE))
-    within_range = unjudged & (outcome.p_values >= SIGNIFICANCE).all(axis=2)
-    distances = np.where(within_range[..., np.newaxis], UNJUDGED, distances)
-    judgement = judgement_of(distances.max(axis=2), image, evidence.truth, evidence.feasible)
-    one_box = np.zeros(unjudged.shape, dtype=np.int64)
-    pixels = pixel_evidence(low[:, :, np.newaxis], high[:, :, np.newaxis], one_box, evidence.feasible.merged)
-    if unjudged.all():
-        return _Judged(judgement, outcome.test, *verdict_of(judgement), distances, pixels)
-    verdict = Verdict.PASS if outcome.passes else Verdict.FAIL
-    probability = f"the least likely mean has p = {outcome.test.smallest_p_value:.2g} after correction"
-    limit = f"against a significance of {SIGNIFICANCE:g}"
-    reason = f"{probability}, {limit}, with {samples} samples a pixel{capped_in_words(judgement)}"
-    return _Judged(judgement, outcome.test, verdict, reason, distances, pixels)
 
 
 def _in_float32(distances: NDArray[np.float64]) -> NDArray[np.float32]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from comparisons.radiance_bound import radiance_bound
+from comparisons.splat_bound import has_splat_bound
 from scenes.light_paths import comparable_depth
 
 if TYPE_CHECKING:
@@ -20,6 +21,13 @@ def depth_or_reason(scene: Scene, renderer: Renderer, integrator: Integrator) ->
     if integrator.gives == "first hits":
         return 0
     depth = comparable_depth(scene, integrator.light_paths, integrator.has_depth)
-    if isinstance(depth, int) and renderer.is_stochastic(scene, integrator.name) and radiance_bound(scene) is None:
+    if isinstance(depth, str) or not renderer.is_stochastic(scene, integrator.name):
+        return depth
+    if integrator.follows == "light paths" and not has_splat_bound(scene):
+        return (
+            "what one light path adds to a pixel has a known bound only for point lights, diffuse surfaces and a "
+            "perspective camera"
+        )
+    if integrator.follows == "camera rays" and radiance_bound(scene) is None:
         return "its samples have no known bound, which the statistical test needs"
     return depth

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.cell import CELL_FILE, TRUTH_FILE, CellPlace, Evidence, run_cell
+from comparisons.cell import CELL_FILE, TRUTH_FILE, CellPlace, run_cell
 from comparisons.comparability import depth_or_reason
 from comparisons.feasible_set import feasible_set
+from comparisons.image_judgement import Evidence
 from comparisons.images import write_image
 from comparisons.renderer import Rays
 from comparisons.renderers.catalogue import all_renderers

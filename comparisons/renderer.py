@@ -52,6 +52,7 @@ class Rendering:
     seconds: float
     first_hits: FirstHits | None = None
     samples: int = 1
+    """Of each pixel; of an integrator that follows light paths, the number of these."""
     batch_means: NDArray[np.float32] | None = None
     """Shape (batches, height, width, 3): means over equally many samples with independent seeds."""
 
@@ -66,6 +67,8 @@ class Integrator:
     has_depth: bool = False
     gives: Literal["image", "first hits"] = "image"
     """First hits alone need no light: they can be compared on every scene, whatever the light paths."""
+    follows: Literal["camera rays", "light paths"] = "camera rays"
+    """Light paths, traced forward from the lights, give the mean over a pixel's area, not the value at its centre."""
 
 
 class Renderer(Protocol):

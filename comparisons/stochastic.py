@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from comparisons.lobe_bias import lobe_bias_p_value
+from comparisons.pixel_blocks import block_sizes, block_sums, spread
 from comparisons.results import StochasticTest
 
 if TYPE_CHECKING:
@@ -90,17 +91,17 @@ def _block_p_values(
     weight = np.where(is_random, 1.0, 0.0)[..., np.newaxis] + np.zeros_like(mean)
     p_values = np.ones_like(mean)
     tests = 0
-    for size in _block_sizes(*mean.shape[:2]):
-        pixels = _block_sums(weight, size)
+    for size in block_sizes(*mean.shape[:2]):
+        pixels = block_sums(weight, size)
         x, floor, ceiling = (
-            _block_sums(weight * image / bound, size) / np.maximum(pixels, 1) for image in (mean, low, high)
+            block_sums(weight * image / bound, size) / np.maximum(pixels, 1) for image in (mean, low, high)
         )
-        p_values = np.minimum(p_values, _spread(_p_values(x, floor, ceiling, samples * pixels), size, mean.shape))
+        p_values = np.minimum(p_values, spread(mean_p_values(x, floor, ceiling, samples * pixels), size, mean.shape))
         tests += int(np.count_nonzero(pixels))
     return p_values * max(tests, 1)
 
 
-def _p_values(mean: Array, low: Array, high: Array, count: Array) -> Array:
+def mean_p_values(mean: Array, low: Array, high: Array, count: Array) -> Array:
     """At most the probability of a mean this far outside [low, high]; all in units of the samples' bound.
 
     For the mean X of n independent variables in [0, 1] with expectation μ, P(X ≥ x) ≤ exp(−n·KL(x ‖ μ)) for x > μ, and
@@ -121,23 +122,6 @@ def _entropy_term(x: Array, mu: Array) -> Array:
     """x·ln(x/μ), which tends to 0 with x."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(x > 0, x * np.log(x / mu), 0.0)
-
-
-def _block_sizes(height: int, width: int) -> list[int]:
-    """1, 2, 4, … up to a block that holds the whole image."""
-    return [2**level for level in range((max(height, width) - 1).bit_length() + 1)]
-
-
-def _block_sums(image: Array, size: int) -> Array:
-    """The sums over blocks of size x size pixels; those at the right and lower border may be smaller."""
-    by_rows = np.add.reduceat(image, np.arange(0, image.shape[0], size), axis=0)
-    sums: Array = np.add.reduceat(by_rows, np.arange(0, image.shape[1], size), axis=1)
-    return sums
-
-
-def _spread(blocks: Array, size: int, shape: tuple[int, ...]) -> Array:
-    """Every block's value at each of its pixels."""
-    return blocks.repeat(size, axis=0)[: shape[0]].repeat(size, axis=1)[:, : shape[1]]
 
 
 def _check(low: Array, high: Array, batch_means: Array, samples: int, bound: float) -> None:

@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from rich.console import Console
+from rich.padding import Padding
+from rich.text import Text
+
 from comparisons.renderers.catalogue import UnknownRendererError, select_renderers
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time
-from raytruth.output import print_json, print_table, progress
+from raytruth.output import print_json, progress
+from scenes.library import library_names, open_scene
+from scenes.requirements import required_features
 
 if TYPE_CHECKING:
     from comparisons.renderer import Renderer
@@ -34,23 +40,40 @@ def renderers(*names: str, as_json: AsJson = False) -> None:
     if as_json:
         print_json({"renderers": records})
         return
-    print_table(
-        ("Renderer", "Version", "Integrators and their light paths", "Error model", "Install"),
-        [
-            (
-                record["name"],
-                record["version"] or "missing",
-                "; ".join(f"{name} {paths}" for name, paths in record["integrators"].items()),
-                "; ".join(f"{subject}: {clause}" for subject, clause in record["error_model"].items()),
-                record["install"],
-            )
-            for record in records
-        ],
-    )
+    console = Console()
+    for record in records:
+        if console.is_terminal:
+            _print_block(console, record)
+        else:
+            print("\t".join((record["name"], *_clauses(record).values())))
+
+
+def _clauses(record: dict[str, Any]) -> dict[str, str]:
+    """What is told of a renderer, by its heading."""
+    return {
+        "version": record["version"] or "missing",
+        "light paths": "; ".join(f"{name} {paths}" for name, paths in record["integrators"].items()),
+        "expresses": f"{record['scenes']} library scenes; {', '.join(record['features'])}",
+        "error model": "; ".join(f"{subject}: {clause}" for subject, clause in record["error_model"].items()),
+        "install": record["install"],
+    }
+
+
+def _print_block(console: Console, record: dict[str, Any]) -> None:
+    """Under the renderer's name a line for each clause, which breaks between words."""
+    console.print(Text(record["name"], style="bold"))
+    for heading, clause in _clauses(record).items():
+        is_long = heading == "error model"
+        console.print(Padding(Text(f"{heading}:" if is_long else f"{heading}: {clause}"), (0, 0, 0, 2)))
+        for subject, part in record["error_model"].items() if is_long else ():
+            console.print(Padding(Text(f"{subject}: {part}"), (0, 0, 0, 4)))
+    console.print()
 
 
 def _record(renderer: Renderer) -> dict[str, Any]:
     version = renderer.version()
+    expressible = [scene for scene in map(open_scene, library_names()) if renderer.refuses(scene) is None]
+    features = frozenset[str]().union(*map(required_features, expressible))
     return {
         "name": renderer.name,
         "version": version,
@@ -62,6 +85,9 @@ def _record(renderer: Renderer) -> dict[str, Any]:
             else integrator.light_paths
             for integrator in renderer.integrators
         },
+        # It refuses every scene with a feature that it lacks: those of the others are what it can express.
+        "scenes": len(expressible),
+        "features": sorted(feature.lower().replace("_", " ") for feature in features),
         "error_model": renderer.error_model.in_words(),
         "install": renderer.install,
     }

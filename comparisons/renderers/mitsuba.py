@@ -39,6 +39,12 @@ SHADOW_EPSILON = 10 * RAY_EPSILON
 BATCHES = 128
 BATCH_SAMPLES = {"scalar_rgb": 8, "llvm_ad_rgb": 32}
 
+LIGHT_TRACER = "ptracer"
+# How many light paths it traces for an image, in batches: what is found with so many, is simulated in
+# tests/meta/test_power_on_light_paths.py. Measured at 96x72 on 2 busy cores: 10 s with LLVM, and 10 s scalar.
+LIGHT_PATH_BATCHES = 64
+LIGHT_PATHS = {"scalar_rgb": 1 << 23, "llvm_ad_rgb": 1 << 25}
+
 # A 512x512 scene of some thousand triangles takes seconds; a hang must not stop a run for long.
 TIME_LIMIT = 300.0
 # Of address space. A 64x64 scene takes 0.5 GB (0.65 GB with LLVM), the largest mesh some more, and each thread of a
@@ -68,7 +74,7 @@ def mitsuba_scalar() -> Renderer:
 
 def mitsuba_llvm() -> Renderer:
     """Mitsuba's variant that compiles for the processor's vector instructions, in float32 throughout."""
-    return MitsubaRenderer("mitsuba-llvm", "llvm_ad_rgb", "pip install mitsuba; apt install libllvm19")
+    return MitsubaRenderer("mitsuba-llvm", "llvm_ad_rgb", "pip install mitsuba; apt install libllvm19 (16 at least)")
 
 
 class MitsubaRenderer:
@@ -77,6 +83,8 @@ class MitsubaRenderer:
     integrators = (
         Integrator("direct", "E(S?e|D[Le])"),
         Integrator("path", "E[DS]{{0,{depth}}}(L|e)", has_depth=True),
+        # Traced forward from the light, with max_depth = 2. No mirror or glass leads to a camera without extent.
+        Integrator(LIGHT_TRACER, "E(D?e|DL)", follows="light paths"),
     )
     """With `depth` surface vertices before the light, which Mitsuba calls max_depth = depth + 1."""
 
@@ -86,7 +94,7 @@ class MitsubaRenderer:
         # Excluded: the offset is some thousand roundoffs of the coordinates.
         ray_offset=RayOffset(absolute=RAY_EPSILON, relative=RAY_EPSILON),
         shadow_shortening=SHADOW_EPSILON,
-        random_choices="at dielectrics, to reflect or to refract",
+        random_choices="at dielectrics, to reflect or to refract; where light goes from a lamp, by ptracer",
     )
 
     def __init__(self, name: str, variant: str, install: str) -> None:
@@ -102,15 +110,15 @@ class MitsubaRenderer:
         """Why Mitsuba cannot express this scene, in one clause; None if it can."""
         return refuses(scene)
 
-    def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - both integrators pick a lobe
-        """Whether there is a dielectric: both integrators reflect or refract at random there."""
-        return any(material.dielectric for material in used_materials(scene))
+    def is_stochastic(self, scene: Scene, integrator: str) -> bool:
+        """Whether light paths start at random, or there is a dielectric, where camera rays reflect or refract so."""
+        return integrator == LIGHT_TRACER or any(material.dielectric for material in used_materials(scene))
 
     def render(self, scene: Scene, integrator: str, depth: int, rays: Rays, folder: Path) -> Rendering:
         """Render in a process of its own; `depth` is the number of surface vertices before the light.
 
         The Mitsuba scene, the log and the results stay in `folder`, which must exist. Deterministic scenes are
-        rendered by Mitsuba's own sensor, others along `rays`. Raises RendererError.
+        rendered by Mitsuba's own sensor, as is `ptracer`, others along `rays`. Raises RendererError.
         """
         job = self._write_job(scene, integrator, depth, folder)
         np.savez(folder / RAYS_FILE, allow_pickle=False, origins=rays.origins, directions=rays.directions)
@@ -134,13 +142,20 @@ class MitsubaRenderer:
             for part in parts
         ]
         first = exporter.first_primitives_of(scene)
+        traces_light = integrator == LIGHT_TRACER
+        pixels = scene.camera.width * scene.camera.height
+        paths_a_pixel = max(1, round(LIGHT_PATHS[self.variant] / (LIGHT_PATH_BATCHES * pixels)))
+        batches, batch_samples = (
+            (LIGHT_PATH_BATCHES, paths_a_pixel) if traces_light else (BATCHES, BATCH_SAMPLES[self.variant])
+        )
         job = Job(
             variant=self.variant,
             scene_files=tuple(files),
             first_primitives={exporter.shape_id(index): number for index, number in enumerate(first)},
             reversed_primitives=tuple(np.flatnonzero(reversed_primitives(scene)).tolist()),
-            batches=BATCHES if stochastic else 0,
-            batch_samples=BATCH_SAMPLES[self.variant] if stochastic else 1,
+            batches=batches if stochastic else 0,
+            batch_samples=batch_samples if stochastic else 1,
+            traces_light=traces_light,
         )
         (folder / JOB_FILE).write_text(job.model_dump_json(indent=2), encoding="utf-8")
         return job
@@ -163,7 +178,7 @@ def _read_rendering(folder: Path, size: tuple[int, ...], job: Job) -> Rendering:
         image=result["image"],
         seconds=float(result["seconds"]),
         first_hits=FirstHits(**{name: result[name] for name in ("depth", "position", "normal", "primitive")}),
-        samples=max(1, job.batches * job.batch_samples),
+        samples=max(1, job.batches * job.batch_samples) * (size[0] * size[1] if job.traces_light else 1),
         batch_means=result.get("batch_means"),
     )
 

@@ -26,3 +26,5 @@ class Job(BaseModel):
     batches: int
     """Batches of random samples along the given rays; 0: one deterministic image by Mitsuba's own sensor."""
     batch_samples: int
+    traces_light: bool = False
+    """Whether samples are light paths, so many for each pixel of the image and batch, that end on any pixel."""

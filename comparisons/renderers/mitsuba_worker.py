@@ -36,7 +36,10 @@ def main() -> None:
 
     result = {"version": np.array(mitsuba.__version__)}
     if job.batches:
-        means, seconds = sample_batches(scenes[0], *flat_rays, job.batches, job.batch_samples)
+        if job.traces_light:
+            means, seconds = trace_light(scenes[0], job.batches, job.batch_samples)
+        else:
+            means, seconds = sample_batches(scenes[0], *flat_rays, job.batches, job.batch_samples)
         result["image"] = means.mean(axis=0).reshape(height, width, 3).astype(np.float32)
         result["batch_means"] = means.reshape(job.batches, height, width, 3).astype(np.float32)
     else:
@@ -71,6 +74,16 @@ def render_sum(scenes: list[MitsubaObject]) -> tuple[Array, float]:
     start = time.perf_counter()
     images = [np.array(mitsuba.render(scene), dtype=np.float64) for scene in scenes]
     return np.sum(images, axis=0), time.perf_counter() - start
+
+
+def trace_light(scene: MitsubaObject, batches: int, paths_a_pixel: int) -> tuple[Array, float]:
+    """Images of `ptracer` with a seed each, float64 of shape (batches, height, width, 3), and the seconds they took."""
+    if is_vectorised():
+        np.array(mitsuba.render(scene, spp=paths_a_pixel, seed=mitsuba.UInt32(batches)))  # compiles
+    start = time.perf_counter()
+    seeds = map(mitsuba.UInt32, range(batches))
+    images = [np.array(mitsuba.render(scene, spp=paths_a_pixel, seed=seed)) for seed in seeds]
+    return np.array(images, dtype=np.float64), time.perf_counter() - start
 
 
 def sample_batches(

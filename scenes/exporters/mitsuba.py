@@ -32,6 +32,8 @@ NEAR_CLIP = 1e-9
 FAR_CLIP = 1e13
 # Russian roulette would end paths at random from this depth on; no depth reaches it.
 NO_ROULETTE = 1_000_000
+# Mitsuba's max_depth for light that has met one surface.
+DIRECT_LIGHT = 2
 # For a person who opens a scene with glass: noise of a few percent, in a second or two.
 PICTURE_SAMPLES = 256
 
@@ -74,9 +76,9 @@ def export_mitsuba(
 ) -> Path:
     """Write `scene` to `folder` and return the path of the Mitsuba scene file.
 
-    `integrator` is `path` or `direct`. `max_depth` (`path` only) is Mitsuba's: 1 shows emitters alone, each bounce
-    adds 1. With `only_source`, all other sources of light are dark: since light adds up, so do the images. Raises
-    ValueError where `refuses(scene)`.
+    `integrator` is `path`, `direct`, or `ptracer`, which traces direct light forward. `max_depth` (`path` only) is
+    Mitsuba's: 1 shows emitters alone, each bounce adds 1. With `only_source`, all other sources of light are dark:
+    since light adds up, so do the images. Raises ValueError where `refuses(scene)`.
     """
     reason = refuses(scene)
     if reason:
@@ -84,7 +86,7 @@ def export_mitsuba(
     root = ElementTree.Element("scene", version="3.0.0")
     add_comment(root, f"{scene.name or 'scene'}: {scene.purpose}")
     _add_integrator(root, integrator, max_depth)
-    _add_camera(root, scene)
+    _add_camera(root, scene, integrator)
     for index, light in enumerate(scene.lights):
         if only_source in (None, index):
             _add_light(root, light)
@@ -108,9 +110,11 @@ def _add_integrator(root: Element, name: str, max_depth: int) -> None:
     integrator = ElementTree.SubElement(root, "integrator", type=name)
     if name == "path":
         add_numbers(integrator, "integer", max_depth=max_depth, rr_depth=NO_ROULETTE)
+    elif name == "ptracer":
+        add_numbers(integrator, "integer", max_depth=DIRECT_LIGHT, rr_depth=NO_ROULETTE)
 
 
-def _add_camera(root: Element, scene: Scene) -> None:
+def _add_camera(root: Element, scene: Scene, integrator: str) -> None:
     camera = scene.camera
     sensor = ElementTree.SubElement(root, "sensor", type=camera.projection)
     add_numbers(sensor, "float", near_clip=NEAR_CLIP, far_clip=FAR_CLIP)
@@ -129,11 +133,16 @@ def _add_camera(root: Element, scene: Scene) -> None:
     add_text(film, "pixel_format", "rgb")
     add_text(film, "component_format", "float32")
     ElementTree.SubElement(film, "rfilter", type="box")
-    _add_sampler(sensor, scene)
+    _add_sampler(sensor, scene, integrator)
 
 
-def _add_sampler(sensor: Element, scene: Scene) -> None:
-    if any(material.dielectric for material in used_materials(scene)):
+def _add_sampler(sensor: Element, scene: Scene, integrator: str) -> None:
+    if integrator == "ptracer":
+        # Where light goes is random in any case; stratified over pixels, it would go to the same few places every time.
+        add_comment(sensor, "so many light paths for each pixel, which end on any of them")
+        sampler = ElementTree.SubElement(sensor, "sampler", type="independent")
+        add_numbers(sampler, "integer", sample_count=PICTURE_SAMPLES)
+    elif any(material.dielectric for material in used_materials(scene)):
         add_comment(sensor, "glass reflects or refracts each ray at random: a picture takes many, all over the pixel")
         sampler = ElementTree.SubElement(sensor, "sampler", type="independent")
         add_numbers(sampler, "integer", sample_count=PICTURE_SAMPLES)

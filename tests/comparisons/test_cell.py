@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from comparisons.cell import CELL_FILE, CellPlace, Evidence, run_cell
+from comparisons.cell import CELL_FILE, CellPlace, run_cell
 from comparisons.feasible_set import UNUSED, feasible_set
+from comparisons.image_judgement import Evidence
 from comparisons.images import read_image
 from comparisons.judgement import UNJUDGED
 from comparisons.lobes import find_lobes

@@ -11,7 +11,7 @@ from scenes.library import library_names, open_scene
 from tests.comparisons.pretending import Pretender
 from tests.scenes.exporter_scenes import BALL, GLASS, MIRROR, POINT, RED, build
 
-DIRECT, PATH = mitsuba_scalar().integrators
+DIRECT, PATH, LIGHT_TRACER = mitsuba_scalar().integrators
 GREY = {"color": (0.5, 0.5, 0.5)}
 
 
@@ -27,6 +27,24 @@ def test_the_depth_is_that_of_the_light_paths() -> None:
 
 def test_a_difference_of_light_paths_is_the_reason() -> None:
     assert "EDe" in str(mitsuba(DIRECT, lights=[POINT], background=GREY))
+
+
+def test_light_traced_forward_needs_point_lights_on_diffuse_surfaces_before_a_perspective_camera() -> None:
+    assert mitsuba(LIGHT_TRACER, lights=[POINT]) == 0
+    for name in library_names():
+        scene = open_scene(name)
+        result = depth_or_reason(scene, mitsuba_scalar(), LIGHT_TRACER)
+        only_diffuse = {tuple(material.model_dump(exclude_none=True)) for material in scene.materials.values()}
+        comparable = scene.convention == "radiometric" and only_diffuse == {("diffuse",)}
+        comparable &= all(light.kind == "point" for light in scene.lights)
+        assert (result == 0) == (comparable and scene.camera.projection == "perspective"), (name, result)
+    assert "which Whitted's equation sums" in str(
+        mitsuba(LIGHT_TRACER, materials={"m": MIRROR}, background=GREY, max_depth=1)
+    )
+    directional = depth_or_reason(open_scene("directional-light"), mitsuba_scalar(), LIGHT_TRACER)
+    parallel = depth_or_reason(open_scene("parallel-projection"), mitsuba_scalar(), LIGHT_TRACER)
+    assert "point lights" in str(directional)
+    assert "perspective camera" in str(parallel)
 
 
 def test_what_a_renderer_refuses_comes_before_light_paths() -> None:

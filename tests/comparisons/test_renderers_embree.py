@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from comparisons.cell import CellPlace, Evidence, run_cell
+from comparisons.cell import CellPlace, run_cell
 from comparisons.comparability import depth_or_reason
 from comparisons.feasible_set import feasible_set
+from comparisons.image_judgement import Evidence
 from comparisons.renderer import Rays, Renderer, RendererError
 from comparisons.renderers import embree as adapter
 from comparisons.renderers.embree import embree, embree_robust

@@ -14,6 +14,7 @@ from comparisons.renderer import Rays, Renderer, RendererError, Rendering
 from comparisons.renderers import mitsuba as adapter
 from comparisons.renderers.mitsuba import mitsuba_llvm, mitsuba_scalar
 from comparisons.renderers.mitsuba_job import RESULT_FILE
+from scenes.exporters import mitsuba as exporter
 from tests.comparisons.sphere_scenes import (
     HEIGHT,
     LIGHTS,
@@ -70,6 +71,53 @@ def test_a_diffuse_sphere_is_the_closed_form_and_two_lights_add_up(
     kept = {path.name for path in tmp_path.iterdir()}
     assert {LOG_FILE, "scene-0.xml", "scene-1.xml"} <= kept
     assert not any(name.startswith("unfinished") for name in kept)
+
+
+def test_light_traced_forward_gives_the_mean_of_the_closed_form_with_independent_batches(
+    renderer: Renderer, tmp_path: Path
+) -> None:
+    scene = build(lights=[point_light(LIGHTS[0], 9.0), point_light(LIGHTS[1], 5.0)])
+    assert renderer.is_stochastic(scene, "ptracer")
+    rendering, rays = render(renderer, scene, tmp_path, depth=0, integrator="ptracer")
+    means = rendering.batch_means
+    assert means is not None
+    assert len(means) == adapter.LIGHT_PATH_BATCHES
+    assert rendering.samples >= adapter.LIGHT_PATHS["scalar_rgb"] * 0.99
+    assert rendering.samples % (adapter.LIGHT_PATH_BATCHES * WIDTH * HEIGHT) == 0
+    assert rendering.image is not None
+    assert np.abs(means.mean(axis=0, dtype=np.float64) - rendering.image).max() < 1e-6
+    inner = sphere_depth(rays, LOOK_AT, 1.1) < np.inf  # away from the rim, where the mean is nearly that at the centre
+    expected = (diffuse_sphere(rays, LIGHTS[0], 9.0) + diffuse_sphere(rays, LIGHTS[1], 5.0))[inner].mean()
+    of_batches = means[:, inner].mean(axis=(1, 2), dtype=np.float64)
+    assert len(np.unique(of_batches)) == len(of_batches)
+    error = of_batches.std(ddof=1) / np.sqrt(len(of_batches))
+    # Six deviations, and half a percent for the means over pixels of a twentieth of the sphere's size.
+    assert abs(of_batches.mean() - expected) < 6 * error + 0.005 * expected
+
+
+@pytest.mark.parametrize("near_clip", [1e-9, 1e-2, 1.0])
+def test_first_hits_do_not_depend_on_the_near_plane(
+    near_clip: float, renderer: Renderer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Mitsuba starts its own camera's rays on that plane, and its depths there: the adapter's rays start at the camera.
+    monkeypatch.setattr(exporter, "NEAR_CLIP", near_clip)
+    rendering, rays = render(renderer, build(lights=[point_light(LIGHTS[0], 9.0)]), tmp_path, depth=1)
+    assert f'name="near_clip" value="{near_clip!r}"' in (tmp_path / exporter.SCENE_FILE).read_text()
+    hits = rendering.first_hits
+    assert hits is not None
+    depth = sphere_depth(rays, LOOK_AT, 1.2)
+    inner = sphere_depth(rays, LOOK_AT, 1.1) < np.inf
+    # Distances up to 6 in float32; the cosine is above 0.4 there. A plane at 1e-2 would shift them by 1e-2.
+    assert np.abs(hits.depth - depth)[inner].max() < 64 * 2.0**-24 * 6 / 0.4
+
+
+def test_an_unfit_llvm_ends_the_trial_alone_and_the_renderer_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("DRJIT_LIBLLVM_PATH", "/nowhere/libLLVM.so")  # as one that aborts: the trial's process fails
+    adapter._try_variant.cache_clear()
+    assert mitsuba_llvm().version() is None
+    assert mitsuba_scalar().version() is not None
+    adapter._try_variant.cache_clear()
+    assert "apt install libllvm" in mitsuba_llvm().install
 
 
 def test_a_directional_light_gives_its_irradiance(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import settings
 from scipy.stats import binomtest
 
+from comparisons.light_path_test import compare_light_paths
 from comparisons.stochastic import SIGNIFICANCE, compare_means
 from tests.comparisons.lobe_images import draw_batch_means, interval_of, one_dielectric
 from tests.meta.lobe_biases import GLASS_SCENES, bound_of, lobes_of
@@ -69,6 +70,32 @@ def test_right_renderers_with_another_way_of_sampling_fail_no_more_often_than_st
         lobes = one_dielectric(reflectance, 1.0, 0.5)
         half = one_dielectric(np.full((9, 7), 0.5), 2 * reflectance, 1 - reflectance)
         p_values.append(outcome_of(lobes, draw_batch_means(half, rng, 32, 8), 256, 2.0).test.smallest_p_value)
+    assert_no_more_alarms_than_stated(p_values)
+
+
+def draw_light_paths(rng, chances, parts, most, paths):
+    """An image to which each path adds a part of the pixel's largest splat; `chances` and `parts`: (kinds, h, w)."""
+    left = 1 - chances.sum()
+    counts = rng.multinomial(paths, np.append(chances.ravel(), left))[:-1].reshape(chances.shape)
+    return (counts * parts).sum(axis=0) * most / paths
+
+
+@pytest.mark.parametrize("paths", [2_000, 1_000_000])
+def test_right_renderers_that_trace_light_forward_fail_no_more_often_than_stated(paths):
+    # Splats of the largest size and rare ones of it beside small ones: from pixels that one path in 10^6 reaches to
+    # pixels that one in 100 does.
+    rng = np.random.default_rng(paths)
+    p_values = []
+    for _ in range(2000):
+        shape = (9, 7)
+        chances = np.stack([10 ** rng.uniform(-6, -2, shape), 10 ** rng.uniform(-4, -2.5, shape)])
+        parts = np.stack([np.ones(shape), rng.uniform(0.01, 1, shape)])
+        most = 10 ** rng.uniform(-2, 2, shape)
+        truth = (chances * parts).sum(axis=0) * most
+        halves = [draw_light_paths(rng, chances, parts, most, paths // 2) for _ in range(2)]
+        images = [np.repeat(image[..., np.newaxis], 3, axis=2) for image in (truth, most, *halves)]
+        outcome = compare_light_paths(images[0], images[0], np.stack(images[2:]), paths, images[1])
+        p_values.append(outcome.test.smallest_p_value)
     assert_no_more_alarms_than_stated(p_values)
 
 

@@ -60,6 +60,13 @@ def test_mitsuba_judges_enough_scenes_with_each_integrator(results: dict[str, An
     assert len(mitsuba) >= 16
 
 
+def test_light_traced_forward_agrees_with_the_truth_on_enough_diffuse_scenes(results: dict[str, Any]) -> None:
+    assert len(passing(results, "ptracer", None)) >= 12
+    tests = [cell["stochastic"] for cell in results["cells"] if cell["integrator"] == "ptracer" and cell["stochastic"]]
+    assert tests
+    assert all(test["smallest_p_value"] > test["significance"] for test in tests)
+
+
 def test_every_scene_is_judged_by_someone_else(results: dict[str, Any]) -> None:
     judged = {
         cell["scene"] for cell in results["cells"] if cell["verdict"] == "pass" and cell["renderer"] != "raytruth"

@@ -1,12 +1,12 @@
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import re
+
+import pytest
 
 from comparisons.renderers.closed_form import ClosedFormRenderer
+from scenes.library import library_names
 from tests.raytruth.running import document, refusal, run
-
-if TYPE_CHECKING:
-    import pytest
 
 
 def test_each_renderer_asked_for_has_a_line(capsys: pytest.CaptureFixture[str]) -> None:
@@ -36,6 +36,30 @@ def test_the_error_model_is_told_field_by_field_in_words(capsys: pytest.CaptureF
     assert told["raytruth"]["random numbers"] == "none"
     line = run(capsys, "renderers", "raytruth")[1]
     assert "; output: float32, linear, rounded to the nearest, not clipped" in line
+
+
+def test_what_a_renderer_can_express_follows_from_what_it_does_not_refuse(capsys: pytest.CaptureFixture[str]) -> None:
+    told = {record["name"]: record for record in document(capsys, "renderers", "raytruth", "mitsuba")["renderers"]}
+    assert told["raytruth"]["scenes"] == len(library_names())
+    assert {"mirrors", "phong", "absorption", "spheres"} <= set(told["raytruth"]["features"])
+    assert {"mirrors", "dielectrics", "diffuse", "checkerboard"} <= set(told["mitsuba"]["features"])
+    assert {"phong", "absorption", "ambient"}.isdisjoint(told["mitsuba"]["features"])
+    assert f"{len(library_names())} library scenes; absorption, ambient" in run(capsys, "renderers", "raytruth")[1]
+
+
+@pytest.mark.parametrize("columns", [80, 120])
+def test_on_a_terminal_each_renderer_is_a_block_that_fits_its_width(
+    columns: int, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("COLUMNS", str(columns))
+    lines = [
+        re.sub(r"\x1b\[[0-9;]*m", "", line).rstrip() for line in run(capsys, "renderers", "raytruth")[1].splitlines()
+    ]
+    assert lines[0] == "raytruth"
+    assert max(map(len, lines)) <= columns
+    assert any(line.startswith("  light paths: whitted ES{0,n}(DL|e)") for line in lines)
+    assert "    output: float32, linear, rounded to the nearest, not clipped" in lines
 
 
 def test_a_renderer_that_cannot_run_is_missing(
