@@ -29,7 +29,7 @@ def test_the_interval_of_an_edge_holds_the_part_of_the_area_that_it_covers(edge:
     covered = (edge + 2) / 4
     for channel, radiance in enumerate(LAMP["emission"]["radiance"]):
         assert low[1, 1, channel] <= covered * radiance <= high[1, 1, channel]
-        assert high[1, 1, channel] - low[1, 1, channel] < 0.01  # of a step of 1
+        assert high[1, 1, channel] - low[1, 1, channel] < 0.01  # of a step of at most 1
     assert (low[1, 0] == high[1, 0]).all()
     assert not high[1, 2].any()
 
@@ -42,9 +42,9 @@ def test_the_interval_holds_the_mean_over_a_finer_grid_and_over_a_displaced_one(
     low, high = area_means(scene)
     fine = render(scene, samples=40)
     assert ((low - 1e-12 <= fine) & (fine <= high + 1e-12)).all()
-    assert (high - low).mean() < 0.05 * fine.mean()
+    assert (high - low).mean() < 0.1 * fine.mean()
     points = render(enlarged(scene, 40))
-    moved = np.roll(points, 1, axis=1).reshape(36, 40, 48, 40, 3).mean(axis=(1, 3))  # by a quarter of a cell
+    moved = np.roll(points, 2, axis=1).reshape(36, 40, 48, 40, 3).mean(axis=(1, 3))  # by half a cell
     inner = np.s_[:, 1:]
     assert (np.abs(moved - fine).max(axis=2) > 0.001).any()
     assert ((low - 1e-12 <= moved) & (moved <= high + 1e-12))[inner].all()
