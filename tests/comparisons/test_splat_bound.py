@@ -69,7 +69,7 @@ def test_single_splats_of_mitsuba_stay_below_the_bound_and_come_near_it(
     assert not rendering.batch_means[:, bound == 0].any()
     seen = np.sort(shares[shares > 0])
     # With one path for each pixel and batch most pixels are hit once or never: these lie below the bound, as far as
-    # float32 can tell, and many of them near it.
+    # float32 can tell, and a tenth of them above its half.
     single = seen[seen <= 1.0 + 1e-5]
     assert len(single) > 0.5 * len(seen)
-    assert np.quantile(single, 0.9) > 0.8
+    assert np.quantile(single, 0.9) > 0.5  # where a bound of twice the size would not

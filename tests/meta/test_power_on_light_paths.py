@@ -14,9 +14,11 @@ import pytest
 from comparisons.light_path_test import compare_light_paths
 from comparisons.pixel_areas import area_means
 from comparisons.renderers.mitsuba import LIGHT_PATHS
+from comparisons.rounded_rays import first_hit
 from comparisons.splat_bound import largest_splats
 from comparisons.stochastic import SIGNIFICANCE
-from reference_tracer.rendering import primary_rays
+from reference_tracer.arithmetic import FLOAT
+from reference_tracer.rendering import prepare, primary_rays
 from scenes.library import open_scene
 
 if TYPE_CHECKING:
@@ -24,8 +26,11 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-# One seen from near and one from afar, the one with the most light on its way, and the one with the most edges.
-SCENES = ["sphere-over-floor", "single-sphere", "cornell-box", "trefoil-knot"]
+# What is found of a fault in all light with the paths that compiled code traces. The knot has the most edges, where the
+# truth's interval is wide.
+SMALLEST_BIASES = {"sphere-over-floor": 0.02, "single-sphere": 0.02, "cornell-box": 0.02, "trefoil-knot": 0.04}
+SCALAR_BIAS = 0.05
+"""What is found in all of them with a quarter of these paths."""
 
 
 @functools.cache
@@ -45,18 +50,27 @@ def p_value(name: str, paths: int, factor: Array | float) -> float:
     return compare_light_paths(low, high, np.stack(means), paths, splats).test.smallest_p_value
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", SMALLEST_BIASES)
 def test_light_that_is_a_little_too_bright_or_dark_is_seen(name: str) -> None:
-    for paths, bias in ((LIGHT_PATHS["llvm_ad_rgb"], 0.025), (LIGHT_PATHS["scalar_rgb"], 0.03)):
+    for paths, bias in ((LIGHT_PATHS["llvm_ad_rgb"], SMALLEST_BIASES[name]), (LIGHT_PATHS["scalar_rgb"], SCALAR_BIAS)):
         assert p_value(name, paths, 1.0) > SIGNIFICANCE
         assert p_value(name, paths, 1 + bias) < SIGNIFICANCE
         assert p_value(name, paths, 1 - bias) < SIGNIFICANCE
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", SMALLEST_BIASES)
 def test_a_missing_cosine_is_seen(name: str) -> None:
+    assert p_value(name, LIGHT_PATHS["scalar_rgb"], 1 / cosines_at_the_surface(name)[..., np.newaxis]) < SIGNIFICANCE
+
+
+def cosines_at_the_surface(name: str) -> Array:
+    """Of each pixel's ray with the normal where it arrives, 1 where it sees nothing; shape (height, width)."""
     scene = open_scene(name)
-    axis = np.subtract(scene.camera.look_at, scene.camera.position)
-    cosine = primary_rays(scene)[1] @ (axis / np.linalg.norm(axis))
-    # That of the camera is the smallest fault of the three in the splats: it is 1 in the middle of the image.
-    assert p_value(name, LIGHT_PATHS["scalar_rgb"], cosine[..., np.newaxis]) < SIGNIFICANCE
+    prepared = prepare(scene, FLOAT)
+    origins, directions = primary_rays(scene)
+    cosines = np.ones(directions.shape[:2])
+    for place in np.ndindex(cosines.shape):
+        primitive, values = first_hit(prepared, tuple(origins[place].tolist()), tuple(directions[place].tolist()))
+        if primitive >= 0:
+            cosines[place] = abs(np.dot(values[4:], directions[place]))
+    return cosines
