@@ -142,23 +142,25 @@ class MitsubaRenderer:
             for part in parts
         ]
         first = exporter.first_primitives_of(scene)
-        traces_light = integrator == LIGHT_TRACER
-        pixels = scene.camera.width * scene.camera.height
-        paths_a_pixel = max(1, round(LIGHT_PATHS[self.variant] / (LIGHT_PATH_BATCHES * pixels)))
-        batches, batch_samples = (
-            (LIGHT_PATH_BATCHES, paths_a_pixel) if traces_light else (BATCHES, BATCH_SAMPLES[self.variant])
-        )
+        batches, batch_samples = self._batches(scene, integrator)
         job = Job(
             variant=self.variant,
             scene_files=tuple(files),
             first_primitives={exporter.shape_id(index): number for index, number in enumerate(first)},
             reversed_primitives=tuple(np.flatnonzero(reversed_primitives(scene)).tolist()),
-            batches=batches if stochastic else 0,
-            batch_samples=batch_samples if stochastic else 1,
-            traces_light=traces_light,
+            batches=batches,
+            batch_samples=batch_samples,
+            traces_light=integrator == LIGHT_TRACER,
         )
         (folder / JOB_FILE).write_text(job.model_dump_json(indent=2), encoding="utf-8")
         return job
+
+    def _batches(self, scene: Scene, integrator: str) -> tuple[int, int]:
+        """How many batches, and of how many samples a pixel each; none for a scene without random numbers."""
+        if integrator == LIGHT_TRACER:
+            pixels = scene.camera.width * scene.camera.height
+            return LIGHT_PATH_BATCHES, max(1, round(LIGHT_PATHS[self.variant] / (LIGHT_PATH_BATCHES * pixels)))
+        return (BATCHES, BATCH_SAMPLES[self.variant]) if self.is_stochastic(scene, integrator) else (0, 1)
 
 
 def _run(folder: Path) -> None:
