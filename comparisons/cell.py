@@ -148,7 +148,7 @@ def _integrator(renderer: Renderer, name: str) -> Integrator:
 
 def _check_sizes(rendering: Rendering, gives: str, truth: NDArray[np.float64]) -> None:
     """Raises RendererError where what the integrator gives is missing, or of another size than the truth."""
-    if (rendering.image if gives == "image" else rendering.first_hits) is None:
+    if (rendering.first_hits if gives == "first hits" else rendering.image) is None:
         raise RendererError(f"expected {gives}, got nothing")
     if rendering.image is not None and rendering.image.shape != truth.shape:
         raise RendererError(f"expected an image of shape {truth.shape}, got {rendering.image.shape}")

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.radiance_bound import radiance_bound
 from comparisons.splat_bound import has_splat_bound
+from scenes.bare_geometry import bare_geometry
 from scenes.light_paths import comparable_depth
 
 if TYPE_CHECKING:
@@ -15,11 +16,11 @@ if TYPE_CHECKING:
 
 def depth_or_reason(scene: Scene, renderer: Renderer, integrator: Integrator) -> int | str:
     """The depth at which the integrator computes the scene's truth, or in one clause why there is none."""
+    if integrator.gives == "first hits":
+        return _first_hits_or_reason(scene, renderer)
     refusal = renderer.refuses(scene)
     if refusal is not None:
         return refusal
-    if integrator.gives == "first hits":
-        return 0
     depth = comparable_depth(scene, integrator.light_paths, integrator.has_depth)
     if isinstance(depth, str) or not renderer.is_stochastic(scene, integrator.name):
         return depth
@@ -31,3 +32,11 @@ def depth_or_reason(scene: Scene, renderer: Renderer, integrator: Integrator) ->
     if integrator.follows == "camera rays" and radiance_bound(scene) is None:
         return "its samples have no known bound, which the statistical test needs"
     return depth
+
+
+def _first_hits_or_reason(scene: Scene, renderer: Renderer) -> int | str:
+    """0, unless the renderer cannot express the shapes or the camera, or tells first hits with its images anyway."""
+    both = [integrator for integrator in renderer.integrators if integrator.gives == "image and first hits"]
+    if any(isinstance(depth_or_reason(scene, renderer, integrator), int) for integrator in both):
+        return "its first hits are judged beside its images"
+    return renderer.refuses(bare_geometry(scene)) or 0

@@ -65,7 +65,7 @@ class Integrator:
     light_paths: str
     """A regular expression over Heckbert's letters; `{depth}` stands for a limit on the number of bounces."""
     has_depth: bool = False
-    gives: Literal["image", "first hits"] = "image"
+    gives: Literal["image", "image and first hits", "first hits"] = "image"
     """First hits alone need no light: they can be compared on every scene, whatever the light paths."""
     follows: Literal["camera rays", "light paths"] = "camera rays"
     """Light paths, traced forward from the lights, give the mean over a pixel's area, not the value at its centre."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import sys
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -14,6 +15,7 @@ from comparisons.isolation import run_isolated
 from comparisons.renderer import FirstHits, Integrator, Rays, Renderer, RendererError, Rendering
 from comparisons.renderers.mitsuba_job import JOB_FILE, RAYS_FILE, RESULT_FILE, Job
 from comparisons.worker_results import read_arrays
+from scenes.bare_geometry import bare_geometry
 from scenes.camera import OrthographicCamera
 from scenes.exporters import mitsuba as exporter
 from scenes.exporters.mitsuba_limits import refuses, reversed_primitives
@@ -39,6 +41,7 @@ SHADOW_EPSILON = 10 * RAY_EPSILON
 BATCHES = 128
 BATCH_SAMPLES = {"scalar_rgb": 8, "llvm_ad_rgb": 32}
 
+FIRST_HITS = "first-hits"
 LIGHT_TRACER = "ptracer"
 # How many light paths it traces for an image, in batches: what is found with so many, is simulated in
 # tests/meta/test_power_on_light_paths.py. Measured at 96x72 on 2 busy cores: 10 s with LLVM, and 10 s scalar.
@@ -81,10 +84,11 @@ class MitsubaRenderer:
     """A variant of Mitsuba, obeying comparisons.renderer.Renderer."""
 
     integrators = (
-        Integrator("direct", "E(S?e|D[Le])"),
-        Integrator("path", "E[DS]{{0,{depth}}}(L|e)", has_depth=True),
+        Integrator("direct", "E(S?e|D[Le])", gives="image and first hits"),
+        Integrator("path", "E[DS]{{0,{depth}}}(L|e)", has_depth=True, gives="image and first hits"),
         # Traced forward from the light, with max_depth = 2. No mirror or glass leads to a camera without extent.
         Integrator(LIGHT_TRACER, "E(D?e|DL)", follows="light paths"),
+        Integrator(FIRST_HITS, "E", gives="first hits"),
     )
     """With `depth` surface vertices before the light, which Mitsuba calls max_depth = depth + 1."""
 
@@ -118,8 +122,11 @@ class MitsubaRenderer:
         """Render in a process of its own; `depth` is the number of surface vertices before the light.
 
         The Mitsuba scene, the log and the results stay in `folder`, which must exist. Deterministic scenes are
-        rendered by Mitsuba's own sensor, as is `ptracer`, others along `rays`. Raises RendererError.
+        rendered by Mitsuba's own sensor, as is `ptracer`, others along `rays`. First hits are those of `rays`. Raises
+        RendererError.
         """
+        if integrator == FIRST_HITS:
+            return replace(self.render(bare_geometry(scene), "direct", 0, rays, folder), image=None)
         job = self._write_job(scene, integrator, depth, folder)
         np.savez(folder / RAYS_FILE, allow_pickle=False, origins=rays.origins, directions=rays.directions)
         _run(folder)

@@ -11,7 +11,7 @@ from scenes.library import library_names, open_scene
 from tests.comparisons.pretending import Pretender
 from tests.scenes.exporter_scenes import BALL, GLASS, MIRROR, POINT, RED, build
 
-DIRECT, PATH, LIGHT_TRACER = mitsuba_scalar().integrators
+DIRECT, PATH, LIGHT_TRACER, FIRST_HITS = mitsuba_scalar().integrators
 GREY = {"color": (0.5, 0.5, 0.5)}
 
 
@@ -52,11 +52,21 @@ def test_what_a_renderer_refuses_comes_before_light_paths() -> None:
     assert "2 primitives" in str(depth_or_reason(two, ClosedFormRenderer(), ClosedFormRenderer.integrators[0]))
 
 
-def test_first_hits_alone_can_be_compared_whatever_the_light_paths() -> None:
+def test_first_hits_alone_need_shapes_and_a_camera_whatever_the_light_paths() -> None:
+    assert mitsuba(FIRST_HITS, lights=[POINT], background=GREY, max_depth=2) == 0
+    assert mitsuba(FIRST_HITS, lights=[{**POINT, "falloff": "none"}]) == 0
     first_hits = Integrator("first-hits", "E", gives="first hits")
-    assert mitsuba(first_hits, lights=[POINT], background=GREY) == 0
     refused = depth_or_reason(build(objects=[BALL, BALL]), ClosedFormRenderer(), first_hits)
     assert "2 primitives" in str(refused)
+
+
+def test_first_hits_that_come_with_an_image_are_not_asked_for_again() -> None:
+    assert mitsuba(DIRECT, lights=[POINT]) == 0
+    assert "beside its images" in str(mitsuba(FIRST_HITS, lights=[POINT]))
+    for name in library_names():
+        scene = open_scene(name)
+        with_image = any(isinstance(depth_or_reason(scene, mitsuba_scalar(), known), int) for known in (DIRECT, PATH))
+        assert (depth_or_reason(scene, mitsuba_scalar(), FIRST_HITS) == 0) != with_image, name
 
 
 def test_noisy_scenes_need_a_bound() -> None:

@@ -216,8 +216,13 @@ def test_first_hits_are_those_of_the_very_same_rays(renderer: Renderer, tmp_path
     random = np.random.default_rng(7)
     origins = random.uniform(3.0, 6.0, (HEIGHT, WIDTH, 3))
     rays = Rays(origins, unit(random.uniform(-1.5, 2.5, origins.shape) - origins))
-    hits = renderer.render(scene, "direct", 1, rays, tmp_path).first_hits
+    rendering = renderer.render(scene, "first-hits", 0, rays, tmp_path)
+    hits = rendering.first_hits
+    assert rendering.image is None
     assert hits is not None
+    beside_image = renderer.render(scene, "direct", 1, rays, tmp_path).first_hits
+    for name, values in vars(hits).items():
+        np.testing.assert_array_equal(values, vars(beside_image)[name])
     depths = [sphere_depth(rays, center, radius) for center, radius in zip(centers, radii, strict=True)]
     plane = (-3.0 - origins[..., 2]) / rays.directions[..., 2]
     nearest = np.minimum(*depths)
