@@ -70,27 +70,29 @@ TRIAL_SCENE = Scene(
 TRIAL_RAYS = Rays(origins=np.array([[[0.0, 0.0, 2.0]]]), directions=np.array([[[0.0, 0.0, -1.0]]]))
 
 
+# With `depth` surface vertices before the light, which Mitsuba calls max_depth = depth + 1.
+BY_CAMERA_RAYS = (
+    Integrator("direct", "E(S?e|D[Le])", gives="image and first hits"),
+    Integrator("path", "E[DS]{{0,{depth}}}(L|e)", has_depth=True, gives="image and first hits"),
+    Integrator(FIRST_HITS, "E", gives="first hits"),
+)
+# Traced forward from the light, with max_depth = 2. No mirror or glass leads to a camera without extent.
+BY_LIGHT_PATHS = Integrator(LIGHT_TRACER, "E(D?e|DL)", follows="light paths")
+
+
 def mitsuba_scalar() -> Renderer:
-    """Mitsuba's variant that computes one ray at a time."""
-    return MitsubaRenderer("mitsuba", "scalar_rgb", "pip install mitsuba")
+    """Mitsuba's variant that computes one ray at a time, and so too few light paths for a good test of them."""
+    return MitsubaRenderer("mitsuba", "scalar_rgb", BY_CAMERA_RAYS, "pip install mitsuba")
 
 
 def mitsuba_llvm() -> Renderer:
     """Mitsuba's variant that compiles for the processor's vector instructions, in float32 throughout."""
-    return MitsubaRenderer("mitsuba-llvm", "llvm_ad_rgb", "pip install mitsuba; apt install libllvm19 (16 at least)")
+    install = "pip install mitsuba; apt install libllvm19 (16 at least)"
+    return MitsubaRenderer("mitsuba-llvm", "llvm_ad_rgb", (*BY_CAMERA_RAYS, BY_LIGHT_PATHS), install)
 
 
 class MitsubaRenderer:
     """A variant of Mitsuba, obeying comparisons.renderer.Renderer."""
-
-    integrators = (
-        Integrator("direct", "E(S?e|D[Le])", gives="image and first hits"),
-        Integrator("path", "E[DS]{{0,{depth}}}(L|e)", has_depth=True, gives="image and first hits"),
-        # Traced forward from the light, with max_depth = 2. No mirror or glass leads to a camera without extent.
-        Integrator(LIGHT_TRACER, "E(D?e|DL)", follows="light paths"),
-        Integrator(FIRST_HITS, "E", gives="first hits"),
-    )
-    """With `depth` surface vertices before the light, which Mitsuba calls max_depth = depth + 1."""
 
     error_model = ErrorModel(
         description="float32 with rays that start off the surface (Mitsuba 3.9)",
@@ -101,9 +103,10 @@ class MitsubaRenderer:
         random_choices="at dielectrics, to reflect or to refract; where light goes from a lamp, by ptracer",
     )
 
-    def __init__(self, name: str, variant: str, install: str) -> None:
+    def __init__(self, name: str, variant: str, integrators: tuple[Integrator, ...], install: str) -> None:
         self.name = name
         self.variant = variant
+        self.integrators = integrators
         self.install = install
 
     def version(self) -> str | None:
@@ -200,7 +203,7 @@ def _try_variant(variant: str) -> str | None:
     """
     with TemporaryDirectory(prefix="raytruth-") as name:
         folder = Path(name)
-        renderer = MitsubaRenderer("trial", variant, "")
+        renderer = MitsubaRenderer("trial", variant, BY_CAMERA_RAYS, "")
         try:
             renderer.render(TRIAL_SCENE, "path", 0, TRIAL_RAYS, folder)
         except RendererError:

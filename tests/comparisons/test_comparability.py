@@ -5,18 +5,18 @@ from typing import Any
 from comparisons.comparability import depth_or_reason
 from comparisons.renderer import Integrator
 from comparisons.renderers.closed_form import ClosedFormRenderer
-from comparisons.renderers.mitsuba import mitsuba_scalar
+from comparisons.renderers.mitsuba import mitsuba_llvm
 from comparisons.renderers.reference import ReferenceTracer
 from scenes.library import library_names, open_scene
 from tests.comparisons.pretending import Pretender
 from tests.scenes.exporter_scenes import BALL, GLASS, MIRROR, POINT, RED, build
 
-DIRECT, PATH, LIGHT_TRACER, FIRST_HITS = mitsuba_scalar().integrators
+DIRECT, PATH, FIRST_HITS, LIGHT_TRACER = mitsuba_llvm().integrators
 GREY = {"color": (0.5, 0.5, 0.5)}
 
 
 def mitsuba(integrator: Integrator, **changes: Any) -> int | str:
-    return depth_or_reason(build(**changes), mitsuba_scalar(), integrator)
+    return depth_or_reason(build(**changes), mitsuba_llvm(), integrator)
 
 
 def test_the_depth_is_that_of_the_light_paths() -> None:
@@ -33,7 +33,7 @@ def test_light_traced_forward_needs_point_lights_on_diffuse_surfaces_before_a_pe
     assert mitsuba(LIGHT_TRACER, lights=[POINT]) == 0
     for name in library_names():
         scene = open_scene(name)
-        result = depth_or_reason(scene, mitsuba_scalar(), LIGHT_TRACER)
+        result = depth_or_reason(scene, mitsuba_llvm(), LIGHT_TRACER)
         only_diffuse = {tuple(material.model_dump(exclude_none=True)) for material in scene.materials.values()}
         comparable = scene.convention == "radiometric" and only_diffuse == {("diffuse",)}
         comparable &= all(light.kind == "point" for light in scene.lights)
@@ -41,8 +41,8 @@ def test_light_traced_forward_needs_point_lights_on_diffuse_surfaces_before_a_pe
     assert "which Whitted's equation sums" in str(
         mitsuba(LIGHT_TRACER, materials={"m": MIRROR}, background=GREY, max_depth=1)
     )
-    directional = depth_or_reason(open_scene("directional-light"), mitsuba_scalar(), LIGHT_TRACER)
-    parallel = depth_or_reason(open_scene("parallel-projection"), mitsuba_scalar(), LIGHT_TRACER)
+    directional = depth_or_reason(open_scene("directional-light"), mitsuba_llvm(), LIGHT_TRACER)
+    parallel = depth_or_reason(open_scene("parallel-projection"), mitsuba_llvm(), LIGHT_TRACER)
     assert "point lights" in str(directional)
     assert "perspective camera" in str(parallel)
 
@@ -65,8 +65,8 @@ def test_first_hits_that_come_with_an_image_are_not_asked_for_again() -> None:
     assert "beside its images" in str(mitsuba(FIRST_HITS, lights=[POINT]))
     for name in library_names():
         scene = open_scene(name)
-        with_image = any(isinstance(depth_or_reason(scene, mitsuba_scalar(), known), int) for known in (DIRECT, PATH))
-        assert (depth_or_reason(scene, mitsuba_scalar(), FIRST_HITS) == 0) != with_image, name
+        with_image = any(isinstance(depth_or_reason(scene, mitsuba_llvm(), known), int) for known in (DIRECT, PATH))
+        assert (depth_or_reason(scene, mitsuba_llvm(), FIRST_HITS) == 0) != with_image, name
 
 
 def test_noisy_scenes_need_a_bound() -> None:

@@ -295,7 +295,7 @@ def test_the_mean_over_a_glass_slab_is_the_known_one_and_batches_and_pixels_are_
 def test_a_crash_of_the_worker_is_one_sentence_and_its_log_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    broken = adapter.MitsubaRenderer("broken", "no_such_variant", "")
+    broken = adapter.MitsubaRenderer("broken", "no_such_variant", adapter.BY_CAMERA_RAYS, "")
     monkeypatch.setitem(adapter.BATCH_SAMPLES, "no_such_variant", 1)
     with pytest.raises(RendererError, match=r"exit status 1; its log ends: .*no_such_variant") as raised:
         render(broken, build(), tmp_path, depth=1)
