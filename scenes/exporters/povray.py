@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from scenes.exporters.povray_limits import UNIT, refuses, spans_of
-from scenes.exporters.povray_materials import declare_material, interior_of, polynomial_falloff
+from scenes.exporters.povray_materials import declare_material, fading, interior_of, polynomial_falloff
 from scenes.exporters.povray_text import block, color, comment, vector
 from scenes.lights import ConstantBackground, PointLight
 from scenes.shapes import Mesh, Sphere
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from scenes.shapes import Shape
 
 SCENE_FILE = "scene.pov"
-# A light of POV-Ray falls off as 2/(1 + (d/f)²): with f = 2^-26 this is 2f²/d² within 2^-52/d².
-FADE_DISTANCE = 2.0**-26
 # POV-Ray's rays meet no sphere this small (in its units: half a chord must exceed 1e-5), but a point can be inside it.
 HOLE_RADIUS = 5e-6
 # A parallel light of POV-Ray throws no shadows of what is behind its position: in radii of a ball around all objects.
@@ -130,10 +128,11 @@ def _background(scene: Scene) -> str:
 def _light(scene: Scene, light: Light) -> str:
     if isinstance(light, PointLight):
         lines = [f"{vector(light.position)}*unit, {color(light.intensity)}*exposure"]
-        if light.falloff == "inverse_square":
-            fade = repr(FADE_DISTANCE)
-            lines = [f"{vector(light.position)}*unit, {color(light.intensity)}*exposure/(2*{fade}*{fade})"]
-            lines.append(f"fade_distance {fade}*unit fade_power 2")
+        fades = fading(light.falloff)
+        if fades:
+            factor, distance = fades
+            lines = [f"{vector(light.position)}*unit, {color(light.intensity)}*exposure*{factor!r}"]
+            lines.append(f"fade_distance {distance!r}*unit fade_power 2")
         elif polynomial_falloff(light):
             lines.append("// its attenuation is in the textures that it lights")
         return block("light_source", *lines) + "\n"

@@ -34,7 +34,7 @@ def refuses(scene: Scene) -> str | None:
     if _extent(scene) > FARTHEST:
         return f"POV-Ray meets nothing that is farther than {FARTHEST:.4g} units away"
     if len(scene.lights) > 1 and any(polynomial_falloff(light) for light in scene.lights):
-        return "lights of POV-Ray have no polynomial attenuation, and a filter in its place would dim other lights, too"
+        return "lights of POV-Ray lack this polynomial attenuation, and a filter in its place would dim others, too"
     return _refuses_dielectrics(scene) if scene.max_depth else None
 
 

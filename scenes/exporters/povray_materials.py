@@ -10,6 +10,7 @@ What filters a texture lies on it as another layer: the colour of a highlight, a
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from scenes.values import Color
 
 BLACK = "pigment { rgb 0 }"
+FADE_DISTANCE = 2.0**-26
+"""With this f, 2/(1 + (d/f)²) is 2f²/d² within 2^-52/d²."""
 SHORT_FADE = 1e-6
 """In POV-Ray's units: far below what a ray travels in a medium, above 1e-10, below which a fade is ignored."""
 
@@ -69,9 +72,22 @@ def interior_of(dielectric: Dielectric) -> str:
 
 
 def polynomial_falloff(light: object) -> PolynomialFalloff | None:
-    """A light's polynomial attenuation, if it has one."""
+    """A light's polynomial attenuation, if it has one that no light of POV-Ray has."""
     falloff = light.falloff if isinstance(light, PointLight) else None
-    return falloff if isinstance(falloff, PolynomialFalloff) else None
+    return falloff if isinstance(falloff, PolynomialFalloff) and fading(falloff) is None else None
+
+
+def fading(falloff: object) -> tuple[float, float] | None:
+    """An intensity's factor and POV-Ray's `fade_distance` f that attenuate like this: factor · 2/(1 + (d/f)²).
+
+    1/(a + c·d²) is (1/(2a)) · 2/(1 + (d/√(a/c))²), if there is no linear term; with a >= 1 it is never above 1, where
+    ours is cut off and POV-Ray's is not. None for other attenuations.
+    """
+    if falloff == "inverse_square":
+        return 0.5 / (FADE_DISTANCE * FADE_DISTANCE), FADE_DISTANCE
+    if isinstance(falloff, PolynomialFalloff) and falloff.linear == 0 and falloff.constant >= 1 and falloff.quadratic:
+        return 0.5 / falloff.constant, math.sqrt(falloff.constant / falloff.quadratic)
+    return None
 
 
 def _declare_average(prefix: str, name: str, terms: list[_Term], declared: list[_Term] | None = None) -> str:

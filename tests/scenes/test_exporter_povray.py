@@ -6,11 +6,13 @@ import re
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from scenes.exporters.povray import export_povray, options_of
+from scenes.exporters.povray_materials import fading
 from scenes.exporters.povray_text import block, comment, vector
+from scenes.lights import PolynomialFalloff
 from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
 
 if TYPE_CHECKING:
@@ -106,3 +108,23 @@ def test_the_exposure_is_one_number_that_all_that_shines_is_multiplied_by(tmp_pa
 def test_options_ask_for_one_ray_a_pixel_and_linear_numbers() -> None:
     options = options_of(build())
     assert {"-A", "+W32", "+H24", "+FN16", "File_Gamma=1.0", "Dither=off"} <= set(options)
+
+
+@given(st.floats(1.0, 1e6), st.floats(1e-6, 1e6), st.floats(1e-3, 1e3))
+def test_a_polynomial_without_linear_term_is_an_attenuation_of_povrays_own(
+    constant: float, quadratic: float, distance: float
+) -> None:
+    fades = fading(PolynomialFalloff(constant=constant, linear=0.0, quadratic=quadratic))
+    assert fades is not None
+    factor, fade_distance = fades
+    expected = 1 / (constant + quadratic * distance * distance)
+    assert factor * 2 / (1 + (distance / fade_distance) ** 2) == pytest.approx(expected, rel=16 * 2.0**-53)
+
+
+@given(st.floats(0.0, 2.0), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
+def test_an_attenuation_with_linear_term_or_cut_off_at_1_is_none_of_povrays_own(
+    constant: float, linear: float, quadratic: float
+) -> None:
+    assume(constant + linear + quadratic > 0)
+    its_own = linear == 0 and constant >= 1 and quadratic > 0
+    assert (fading(PolynomialFalloff(constant=constant, linear=linear, quadratic=quadratic)) is not None) == its_own
