@@ -7,15 +7,16 @@ cell as float32 EXR. Paths in the file are relative to the directory.
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field
 
 SCHEMA_VERSION = 1
 RESULTS_FILE = "results.json"
 
 
 class Verdict(StrEnum):
-    """What a cell can be; only `fail` and `error` make a run fail."""
+    """What a cell can be; only `error`, and `fail` where it is not waived, make a run fail."""
 
     PASS = "pass"
     FAIL = "fail"
@@ -111,6 +112,17 @@ class Images(Record):
     variance: str | None = None
 
 
+Link = Annotated[str, Field(pattern=r"^https://[^\s]+$")]
+"""An address that a browser may open."""
+
+
+class Waived(Record):
+    """Why a failure is known, and does not make the run fail."""
+
+    reason: str
+    link: Link
+
+
 class Cell(Record):
     """One scene on one renderer."""
 
@@ -119,6 +131,8 @@ class Cell(Record):
     integrator: str
     verdict: Verdict
     reason: str
+    waived: Waived | None = None
+    """Of a cell that fails as a waiver says; the verdict is still `fail`."""
     largest_error: float | None = None
     """Over the judged pixels: from the truth, or from the nearest outcome where there are several."""
     seconds: float | None = None

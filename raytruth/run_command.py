@@ -16,6 +16,7 @@ from comparisons.matrix import Plan, plan_run, run_plan
 from comparisons.renderers.catalogue import UnknownRendererError, select_renderers
 from comparisons.results import Verdict
 from comparisons.results_directory import with_metrics, write_results
+from comparisons.waivers import WaiverError, apply_waivers, load_waivers
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene
 from raytruth.output import progress
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
     from comparisons.renderer import Renderer
     from comparisons.results import Cell, Results
+    from comparisons.waivers import Waiver
     from scenes.scene import Scene
 
 FAILED = 1
@@ -39,12 +41,14 @@ def run(
     require: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     out: Path = Path("results"),
     jobs: int | None = None,
+    waivers: Path | None = None,
     fresh: Annotated[bool, Parameter(negative="")] = False,
     as_json: AsJson = False,
 ) -> int:
     """Run the conformance matrix: scenes × renderers, each cell judged against the truth.
 
-    Exit status 0 if all comparable cells pass, 1 if one fails or errs or a required renderer is missing.
+    Exit status 0 if all comparable cells pass, 1 if one fails unwaived or errs, a waiver matches nothing, or a required
+    renderer is missing.
 
     Examples: `raytruth run`, `raytruth run whitted-1980 my-scene.json --renderer mitsuba --out results`
 
@@ -60,6 +64,8 @@ def run(
         The results directory; an earlier run's cells are kept, and taken over where nothing has changed.
     jobs
         How many scenes are worked on side by side; one a processor by default.
+    waivers
+        A JSON file of known failures that do not make the run fail, besides those that raytruth knows itself.
     fresh
         Render every cell again.
     as_json
@@ -73,6 +79,7 @@ def run(
     except UnknownRendererError as error:
         raise UsageError(str(error)) from error
     selected |= required
+    known_failures = _waivers(waivers)
     sources = scenes or library_names()
     opened = _distinct([open_scene(source) for source in sources])
     with progress("Looking for the renderers"):
@@ -80,10 +87,20 @@ def run(
     cells = _run(plan, out, jobs or os.cpu_count() or 1)
     with progress("Measuring global differences"):
         cells = with_metrics(out, cells)
+    versions = {name: renderer.version() for name, renderer in selected.items()}
+    cells, unmatched = apply_waivers(known_failures, cells, versions)
     results = write_results(out, _command(), opened, list(selected.values()), cells)
     report = write_html_report(out)
     _show(results, report, as_json)
-    return _status(cells, required.values())
+    return _status(cells, required.values(), unmatched)
+
+
+def _waivers(path: Path | None) -> tuple[Waiver, ...]:
+    """Those that raytruth knows, and those in the file."""
+    try:
+        return load_waivers() + (load_waivers(path) if path is not None else ())
+    except WaiverError as error:
+        raise UsageError(str(error)) from error
 
 
 def _split(names: Iterable[str]) -> list[str]:
@@ -126,9 +143,11 @@ def _show(results: Results, report: Path, as_json: bool) -> None:
         print_matrix(results, Console(), report)
 
 
-def _status(cells: Sequence[Cell], required: Iterable[Renderer]) -> int:
+def _status(cells: Sequence[Cell], required: Iterable[Renderer], unmatched: Sequence[str]) -> int:
     missing = [renderer for renderer in required if renderer.version() is None]
     for renderer in missing:
         print(f"raytruth: {renderer.name} is required and not installed: {renderer.install}", file=sys.stderr)
-    bad = any(cell.verdict in {Verdict.FAIL, Verdict.ERROR} for cell in cells)
-    return FAILED if bad or missing else 0
+    for sentence in unmatched:
+        print(f"raytruth: {sentence}", file=sys.stderr)
+    bad = any(cell.verdict in {Verdict.FAIL, Verdict.ERROR} and cell.waived is None for cell in cells)
+    return FAILED if bad or missing or unmatched else 0

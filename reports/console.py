@@ -9,7 +9,18 @@ from rich.table import Table
 from rich.text import Text
 
 from comparisons.results import Verdict
-from reports.wording import WORDINGS, capped, cells_by_place, columns, number, printable, summary, verdict_counts
+from reports.wording import (
+    WAIVED,
+    WORDINGS,
+    capped,
+    cells_by_place,
+    columns,
+    number,
+    outcome,
+    outcome_counts,
+    printable,
+    summary,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -18,9 +29,10 @@ if TYPE_CHECKING:
 
     from comparisons.results import Cell, Results
 
-STYLES = {
+STYLES: dict[str, str] = {
     Verdict.PASS: "green",
     Verdict.FAIL: "bold red",
+    WAIVED: "yellow",
     Verdict.INCOMPARABLE: "dim",
     Verdict.UNAVAILABLE: "dim",
     Verdict.ERROR: "bold magenta",
@@ -60,8 +72,8 @@ def _print_table(results: Results, console: Console) -> None:
         for i, name in enumerate(names, start=1):
             _print_line(console, f"{i:>3}  {name}")
     legend = Text("  ").join(
-        Text(f"{_sign(verdict, console)} {WORDINGS[verdict].word}", style=STYLES[verdict])
-        for verdict, count in verdict_counts(results).items()
+        Text(f"{_sign(known, console)} {WORDINGS[known].word}", style=STYLES[known])
+        for known, count in outcome_counts(results).items()
         if count > 0
     )
     console.print(legend)
@@ -76,7 +88,7 @@ def _table(results: Results, console: Console, headers: list[str]) -> Table:
     for scene in results.scenes:
         row = [cells.get((scene.name, *column)) for column in columns(results)]
         signs = [
-            Text(" ") if cell is None else Text(_sign(cell.verdict, console), style=STYLES[cell.verdict])
+            Text(" ") if cell is None else Text(_sign(outcome(cell), console), style=STYLES[outcome(cell)])
             for cell in row
         ]
         table.add_row(_text(scene.name, console), *signs)
@@ -86,16 +98,24 @@ def _table(results: Results, console: Console, headers: list[str]) -> Table:
 def _trouble(cell: Cell, console: Console) -> Text:
     """Why a cell failed, in one paragraph."""
     place = f"{cell.scene} {cell.renderer}/{cell.integrator}"
+    known = outcome(cell)
     return Text.assemble(
-        (f"{_sign(cell.verdict, console)} {WORDINGS[cell.verdict].word}", STYLES[cell.verdict]),
-        _text(f" {place}: {cell.reason}", console),
+        (f"{_sign(known, console)} {WORDINGS[known].word}", STYLES[known]),
+        _text(f" {place}: {_reason(cell)}", console),
     )
 
 
 def _plain(cell: Cell) -> str:
-    """One line of a cell: verdict, scene, renderer/integrator, largest error, reason."""
+    """One line of a cell: outcome, scene, renderer/integrator, largest error, reason."""
     error = "" if cell.largest_error is None else f" (largest error {number(cell.largest_error)})"
-    return f"{cell.verdict:<12} {cell.scene} {cell.renderer}/{cell.integrator}{error}: {cell.reason}".replace("\n", " ")
+    place = f"{cell.scene} {cell.renderer}/{cell.integrator}"
+    return f"{outcome(cell):<12} {place}{error}: {_reason(cell)}".replace("\n", " ")
+
+
+def _reason(cell: Cell) -> str:
+    if cell.waived is None:
+        return cell.reason
+    return f"{cell.reason}; waived: {cell.waived.reason} {cell.waived.link}"
 
 
 def _print_line(console: Console, line: str) -> None:
@@ -108,11 +128,11 @@ def _text(text: str, console: Console) -> Text:
     return Text(printable(text).encode(console.encoding, "replace").decode(console.encoding))
 
 
-def _sign(verdict: Verdict, console: Console) -> str:
-    """The verdict's sign, or its initial letter where the output cannot encode the sign."""
-    sign = WORDINGS[verdict].sign
+def _sign(known: str, console: Console) -> str:
+    """The outcome's sign, or its initial letter where the output cannot encode the sign."""
+    sign = WORDINGS[known].sign
     encodable = sign.encode(console.encoding, "ignore") != b""
-    return sign if encodable else WORDINGS[verdict].word[0].upper()
+    return sign if encodable else WORDINGS[known].word[0].upper()
 
 
 def _widest_line(header: str) -> int:

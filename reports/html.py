@@ -16,7 +16,6 @@ from urllib.parse import quote
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from comparisons.results import Verdict
 from reports import pictures, wording
 from reports.figures import Album, Figure, SharedPicture, cell_figures, data_uri
 from reports.loading import ReportError, load_results, read_log
@@ -41,6 +40,11 @@ class CellView:
     pixel_problem: str | None
     log: str | None
     log_problem: str | None
+
+    @property
+    def outcome(self) -> str:
+        """The verdict, or `waived`."""
+        return wording.outcome(self.record)
 
 
 @dataclass
@@ -103,9 +107,8 @@ def _render_page(directory: Path, results: Results, pixels: Path) -> str:
         headline=wording.headline(results),
         summary=wording.summary(results),
         capped=wording.capped(results),
-        counts=wording.verdict_counts(results),
+        counts=wording.outcome_counts(results),
         wordings=wording.WORDINGS,
-        verdicts=Verdict,
         columns=wording.columns(results),
         scenes=scenes,
         album=list(album.pictures.values()),

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Wording:
-    """How a verdict is shown: a sign that needs no colour, a word, the word in a count, and what it means."""
+    """How an outcome is shown: a sign that needs no colour, a word, the word in a count, and what it means."""
 
     sign: str
     word: str
@@ -23,9 +23,13 @@ class Wording:
     meaning: str
 
 
-WORDINGS = {
+WAIVED = "waived"
+"""What a failure that a waiver excuses is shown as."""
+
+WORDINGS: dict[str, Wording] = {
     Verdict.PASS: Wording("✓", "pass", "passed", "every judged pixel is what a right renderer may give"),
     Verdict.FAIL: Wording("✗", "fail", "failed", "at least one pixel cannot come from a right renderer"),
+    WAIVED: Wording("≠", "waived", "failed as waived", "a failure of known reason, which does not make the run fail"),
     Verdict.INCOMPARABLE: Wording(
         "–", "incomparable", "incomparable", "the scene and the renderer do not define the same image"
     ),
@@ -34,31 +38,33 @@ WORDINGS = {
 }
 
 
-def verdict_counts(results: Results) -> dict[Verdict, int]:
-    """How many cells have each verdict, zeros included, in the order of the verdicts."""
-    counts = Counter(cell.verdict for cell in results.cells)
-    return {verdict: counts[verdict] for verdict in Verdict}
+def outcome(cell: Cell) -> str:
+    """The cell's verdict, or `waived`."""
+    return WAIVED if cell.waived is not None and cell.verdict == Verdict.FAIL else cell.verdict.value
+
+
+def outcome_counts(results: Results) -> dict[str, int]:
+    """How many cells have each outcome: all verdicts, zeros included, and waived failures if there are any."""
+    counts = Counter(outcome(cell) for cell in results.cells)
+    return {known: counts[known] for known in WORDINGS if known != WAIVED or counts[WAIVED]}
 
 
 def headline(results: Results) -> str:
     """The run's outcome in one sentence."""
-    counts = verdict_counts(results)
-    judged = counts[Verdict.PASS] + counts[Verdict.FAIL] + counts[Verdict.ERROR]
-    troubles = [
-        f"{counts[verdict]} {WORDINGS[verdict].counted}"
-        for verdict in (Verdict.FAIL, Verdict.ERROR)
-        if counts[verdict] > 0
-    ]
-    if troubles:
-        return f"Of {judged} comparable {plural('cell', judged)}, {' and '.join(troubles)}"
+    counts = outcome_counts(results)
+    troubles = {known: counts.get(known, 0) for known in (Verdict.FAIL, WAIVED, Verdict.ERROR)}
+    judged = counts[Verdict.PASS] + sum(troubles.values())
+    told = [f"{count} {WORDINGS[known].counted}" for known, count in troubles.items() if count]
+    if told:
+        return f"Of {judged} comparable {plural('cell', judged)}, {' and '.join(told)}"
     if judged == 0:
         return "No cell could be compared"
     return "The one comparable cell passed" if judged == 1 else f"All {judged} comparable cells passed"
 
 
 def summary(results: Results) -> str:
-    """The counts of all verdicts in one sentence."""
-    counts = ", ".join(f"{count} {WORDINGS[verdict].counted}" for verdict, count in verdict_counts(results).items())
+    """The counts of all outcomes in one sentence."""
+    counts = ", ".join(f"{count} {WORDINGS[known].counted}" for known, count in outcome_counts(results).items())
     total = len(results.cells)
     return f"{total} {plural('cell', total)}: {counts}."
 

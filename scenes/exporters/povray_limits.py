@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scenes.exporters.povray_materials import polynomial_falloff
+from scenes.exporters.povray_materials import polynomial_falloff, relative_index
 from scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
@@ -63,30 +64,46 @@ def _refuses_dielectrics(scene: Scene) -> str | None:
     """POV-Ray knows a ray's medium from the surfaces it has passed, and ours from the surface that it meets."""
     shapes = [shape for shape in scene.objects if scene.materials[shape.material].dielectric]
     for shape in shapes:
-        dielectric = scene.materials[shape.material].dielectric
-        assert dielectric is not None  # the shapes were chosen so
-        reason = _refuses_dielectric(dielectric) or _refuses_shape(shape)
+        reason = _refuses_dielectric(scene, _dielectric_of(scene, shape)) or _refuses_shape(shape)
         if reason:
             return reason
+    return _refuses_overlaps(scene, shapes) or _refuses_camera(scene, shapes)
+
+
+def _refuses_overlaps(scene: Scene, shapes: list[Shape]) -> str | None:
+    """A dielectric may be wholly inside one other, in whose medium it is declared to be."""
     boxes = [_box(shape) for shape in shapes]
-    for i, first in enumerate(shapes):
-        if any(_may_overlap(first, boxes[i], second, boxes[j]) for j, second in enumerate(shapes[:i])):
+    around: dict[int, Shape] = {}
+    for i, j in combinations(range(len(shapes)), 2):
+        if not _may_overlap(shapes[i], boxes[i], shapes[j], boxes[j]):
+            continue
+        inner, outer = (i, j) if _is_inside(shapes[i], shapes[j]) else (j, i)
+        if not _is_inside(shapes[inner], shapes[outer]) or inner in around:
             return "two dielectric objects may overlap, and POV-Ray takes the medium from what a ray has passed before"
-    return _refuses_camera(scene, shapes)
+        around[inner] = shapes[outer]
+    for number, shape in enumerate(shapes):
+        outside = around[number].material if number in around else None
+        if outside != _dielectric_of(scene, shape).outside:
+            return "a dielectric's outside is not the object around it, from which POV-Ray takes the medium"
+        if number in around:
+            beyond = _dielectric_of(scene, around[number])
+            if beyond.reflectance is not None or (beyond.absorption and any(beyond.absorption)):
+                return "POV-Ray lets the medium of an object absorb inside what is inside of it, too"
+    return None
 
 
-def _refuses_dielectric(dielectric: Dielectric) -> str | None:
-    if dielectric.outside is not None:
-        # Trace::ComputeRelativeIOR in source/backend/render/trace.cpp of 3.7.0.10 takes the last of the ray's interiors
-        # for the medium beyond, when that is still the object itself. With R = 0 there, our tracer gives its pictures.
-        return (
-            "POV-Ray 3.7 finds no Fresnel reflection where a ray leaves an object inside another "
-            "(it compares that object's index with itself)"
-        )
-    if dielectric.index_of_refraction == 1.0:
+def _dielectric_of(scene: Scene, shape: Shape) -> Dielectric:
+    """That of a shape which is known to have one."""
+    dielectric = scene.materials[shape.material].dielectric
+    assert dielectric is not None
+    return dielectric
+
+
+def _refuses_dielectric(scene: Scene, dielectric: Dielectric) -> str | None:
+    if relative_index(scene, dielectric) == 1.0:
         return "POV-Ray does not count a surface between equal indices as a refraction"
     if dielectric.reflectance is not None:
-        if dielectric.index_of_refraction < 1.0:
+        if relative_index(scene, dielectric) < 1.0:
             return (
                 "POV-Ray reflects all where a ray is totally reflected from outside, whatever the constant weights say"
             )
@@ -130,6 +147,14 @@ def _may_overlap(first: Shape, first_box: NDArray[np.float64], second: Shape, se
         distance = np.linalg.norm(np.subtract(first.center, second.center))
         return bool(distance <= first.radius + second.radius)
     return bool((first_box[0] <= second_box[1]).all() and (second_box[0] <= first_box[1]).all())
+
+
+def _is_inside(inner: Shape, outer: Shape) -> bool:
+    """Whether one surely holds the other; known of spheres only."""
+    if not (isinstance(inner, Sphere) and isinstance(outer, Sphere)):
+        return False
+    distance = np.linalg.norm(np.subtract(inner.center, outer.center))
+    return bool(distance + inner.radius < outer.radius)
 
 
 def _refuses_camera(scene: Scene, shapes: list[Shape]) -> str | None:

@@ -71,6 +71,12 @@ def interior_of(dielectric: Dielectric) -> str:
     return block("interior", *lines)
 
 
+def relative_index(scene: Scene, dielectric: Dielectric) -> float:
+    """The index of refraction divided by that of the medium outside."""
+    outside = scene.materials[dielectric.outside].dielectric if dielectric.outside is not None else None
+    return dielectric.index_of_refraction / (1.0 if outside is None else outside.index_of_refraction)
+
+
 def polynomial_falloff(light: object) -> PolynomialFalloff | None:
     """A light's polynomial attenuation, if it has one that no light of POV-Ray has."""
     falloff = light.falloff if isinstance(light, PointLight) else None
@@ -132,7 +138,7 @@ def _dielectric(scene: Scene, dielectric: Dielectric, entering: bool) -> str:
         return f"{_filter(transmitted)} finish {{ reflection {{ {color(dielectric.reflectance)} }} }}"
     scale = 1.0
     if scene.convention == "radiometric":  # radiance changes with the square of the index
-        scale = dielectric.index_of_refraction ** (-2 if entering else 2)
+        scale = relative_index(scene, dielectric) ** (-2 if entering else 2)
     return f"{_filter((scale, scale, scale))} finish {{ reflection {{ 0, 1 fresnel }} conserve_energy }}"
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from comparisons import matrix
+from comparisons import matrix, waivers
 from comparisons.renderer import RendererError
 from comparisons.renderers import catalogue
 from comparisons.results import RESULTS_FILE, Results
@@ -57,6 +57,8 @@ def pretender(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Pretender:  # no
     known = {"pretender": renderer, "ghost": Pretender(name="ghost", installed=None, install="pip install ghost")}
     for module in (matrix, catalogue):
         monkeypatch.setattr(module, "all_renderers", lambda: known)
+    # The waivers that raytruth has itself are of other renderers.
+    monkeypatch.setattr(waivers, "all_renderers", lambda every={**waivers.all_renderers(), **known}: every)
     # Global metrics are measured in the tests of closed_form; each process that measures them takes a second to start.
     monkeypatch.setattr(run_command, "with_metrics", lambda _out, cells: cells)
     return renderer
@@ -109,6 +111,61 @@ def test_a_failure_is_not_forgotten_by_the_next_run(pretender: Pretender, capsys
     assert pretender.calls == 1
     pretender.answer = truthful
     assert run(capsys, "run", "small.json", "--renderer", "pretender", "--fresh")[0] == 0
+
+
+def waiver_file(folder: Path, **changes: Any) -> str:
+    """A waiver of what the pretender does when it answers in black."""
+    waiver = {
+        "renderer": "pretender",
+        "version": "pretender *",
+        "scene": "small",
+        "integrator": "whitted",
+        "most_failing_pixels": SCENE["camera"]["width"] * SCENE["camera"]["height"],
+        "reason": "It is out of paint.",
+        "link": "https://example.org/paint",
+    }
+    path = folder / "waivers.json"
+    path.write_text(json.dumps([waiver | changes]), encoding="utf-8")
+    return str(path)
+
+
+def test_a_waived_failure_gives_0_and_is_told_apart(
+    pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pretender.answer = black
+    for _ in range(2):  # the second run takes the cell over, and its waiver with it only if that is given again
+        status, out, _ = run(
+            capsys, "run", "small.json", "--renderer", "pretender", "--waivers", waiver_file(folder)
+        )
+        assert status == 0
+        assert "1 cell: 0 passed, 0 failed, 1 failed as waived" in out
+        (cell,) = results_in(folder / "results").cells
+        assert cell.verdict == "fail"
+        assert cell.waived is not None
+        assert cell.waived.reason == "It is out of paint."
+    assert run(capsys, "run", "small.json", "--renderer", "pretender")[0] == 1
+    assert pretender.calls == 1
+
+
+def test_a_waiver_that_matches_nothing_gives_1(
+    pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert pretender.answer is truthful
+    waivers = waiver_file(folder)
+    status, _, err = run(capsys, "run", "small.json", "--renderer", "pretender", "--waivers", waivers)
+    assert status == 1
+    assert "The waiver of pretender/whitted on small matches nothing, since the verdict is pass: remove it." in err
+    waivers = waiver_file(folder, scene="large")
+    assert run(capsys, "run", "small.json", "--renderer", "pretender", "--waivers", waivers)[0] == 0
+
+
+@pytest.mark.parametrize("changes", [{"renderer": "pretence"}, {"most_failing_pixels": "all"}])
+def test_a_bad_file_of_waivers_is_one_sentence_before_any_work(
+    changes: dict[str, Any], pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    told = refusal(capsys, "run", "small.json", "--waivers", waiver_file(folder, **changes))
+    assert f"{folder / 'waivers.json'}: [0].{next(iter(changes))}: " in told
+    assert pretender.calls == 0
 
 
 def test_what_is_unavailable_or_incomparable_is_shown_and_fails_nothing(

@@ -8,7 +8,7 @@ from rich.console import Console
 from comparisons.results import Results, Verdict
 from reports.console import print_matrix
 from reports.loading import load_results
-from reports.wording import WORDINGS, capped
+from reports.wording import WORDINGS, capped, outcome
 from tests.reports.sample_results import write_sample
 
 
@@ -36,18 +36,25 @@ def widened(results: Results, copies: int) -> Results:
 @pytest.mark.parametrize("terminal", [True, False])
 def test_counts_reasons_of_failures_and_the_report_are_printed(results: Results, terminal: bool) -> None:
     text = printed(results, terminal=terminal)
-    assert "9 cells: 5 passed, 1 failed, 1 incomparable, 1 unavailable, 1 ended in an error." in text
+    assert "10 cells: 5 passed, 1 failed, 1 failed as waived, 1 incomparable, 1 unavailable, 1 ended in an error." in text
     assert "lie outside their" in text
-    assert "Capped pixels: 3,078 of 24,576 pixels in 6 judged cells (12.5 %): 6 in a box of several outcomes" in text
+    assert "Capped pixels: 3,591 of 28,672 pixels in 7 judged cells (12.5 %): 7 in a box of several outcomes" in text
     assert "mitsuba ended with signal 6" in text
     assert "Report: /a/place/report.html" in text
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_a_waived_failure_is_told_apart_with_its_reason(results: Results, terminal: bool) -> None:
+    text = " ".join(printed(results, terminal=terminal).split())
+    assert "waived whitted-1980 closed_form/local" in text
+    assert "; waived: It takes <b>air</b> for glass. https://example.org/fault?a=1&b=2" in text
 
 
 def test_a_terminal_gets_a_sign_for_every_cell_and_a_legend(results: Results) -> None:
     lines = printed(results, terminal=True).splitlines()
     table = "\n".join(lines[: next(i for i, line in enumerate(lines) if line.startswith("✓ pass"))])
-    for verdict, wording in WORDINGS.items():
-        assert table.count(wording.sign) == sum(cell.verdict == verdict for cell in results.cells)
+    for known, wording in WORDINGS.items():
+        assert table.count(wording.sign) == sum(outcome(cell) == known for cell in results.cells)
         assert f"{wording.sign} {wording.word}" in "\n".join(lines)
 
 
@@ -65,7 +72,7 @@ def test_no_line_of_the_table_exceeds_80_columns_and_no_name_is_lost(results: Re
 def test_elsewhere_each_cell_is_one_line(results: Results) -> None:
     lines = printed(results, terminal=False, width=30).splitlines()
     assert len(lines) == len(results.cells) + 3
-    assert [line.split()[0] for line in lines[:-3]] == [cell.verdict for cell in results.cells]
+    assert [line.split()[0] for line in lines[:-3]] == [outcome(cell) for cell in results.cells]
 
 
 @pytest.mark.parametrize("terminal", [True, False])
@@ -112,9 +119,9 @@ def test_capped_pixels_are_summed_over_all_judged_cells(results: Results, merged
     text = capped(results.model_copy(update={"cells": tuple(cells)}))
     assert text is not None
     if merged + unjudged == 0:
-        assert text == f"Capped pixels: none of 24,576 pixels in {len(judged)} judged cells."
+        assert text == f"Capped pixels: none of 28,672 pixels in {len(judged)} judged cells."
     else:
-        share = 100 * (merged + unjudged) / 24_576
-        assert text.startswith(f"Capped pixels: {merged + unjudged} of 24,576 pixels")
+        share = 100 * (merged + unjudged) / 28_672
+        assert text.startswith(f"Capped pixels: {merged + unjudged} of 28,672 pixels")
         assert f"({share:.3g} %)" in text
         assert text.endswith(f": {merged} in a box of several outcomes, {unjudged} not judged.")

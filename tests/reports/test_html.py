@@ -66,7 +66,8 @@ def test_scripts_of_cells_that_are_gone_go_too(directory: Path) -> None:
 
 
 def test_nothing_on_the_page_is_fetched(directory: Path) -> None:
-    page = page_of(directory)
+    # A person may follow a link.
+    page = re.sub(r'<a href="https://[^"]*" rel="noreferrer">', "", page_of(directory))
     addresses = re.findall(r"""(?:src|href)="([^"]*)"|url\\("([^"]*)"\\)""", page)
     assert addresses
     assert all(address.startswith(("#", "data:")) for pair in addresses for address in pair if address)
@@ -74,7 +75,7 @@ def test_nothing_on_the_page_is_fetched(directory: Path) -> None:
 
 
 def test_no_string_of_the_results_can_become_markup(directory: Path) -> None:
-    keep = frozenset({"verdict", "images", "log"})
+    keep = frozenset({"verdict", "images", "log", "link"})
     log = next(directory.rglob("log.txt"))
     log.write_text(HOSTILE, encoding="utf-8")
 

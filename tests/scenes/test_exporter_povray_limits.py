@@ -57,10 +57,34 @@ def test_what_povray_cannot_express_is_refused_with_its_reason(changes: dict[str
     assert word in reason
 
 
-def test_an_object_inside_another_is_refused() -> None:
-    bubble = {"dielectric": {"index_of_refraction": 1.2, "outside": "m"}}
-    inner = BALL | {"radius": 0.5, "material": "bubble"}
-    assert "Fresnel" in str(refuses(build(**glass(materials={"m": GLASS, "bubble": bubble}, objects=[BALL, inner]))))
+SMALL_BALL = BALL | {"radius": 0.5}
+
+
+def nested(inner: dict[str, Any], around: dict[str, Any] = GLASS, **bubble: Any) -> str | None:
+    """Why a dielectric in or beside a ball of another is refused."""
+    medium = {"dielectric": {"index_of_refraction": 1.2, "outside": "m"} | bubble}
+    changes = glass(materials={"m": around, "bubble": medium}, objects=[BALL, inner | {"material": "bubble"}])
+    return refuses(build(**changes))
+
+
+def test_a_sphere_wholly_inside_the_medium_it_is_declared_in_is_not_refused() -> None:
+    assert nested(SMALL_BALL) is None
+
+
+@pytest.mark.parametrize(
+    ("inner", "changes", "word"),
+    [
+        (SMALL_BALL | {"center": (0.9, 0.2, 0.3)}, {}, "overlap"),
+        (SMALL_BALL, {"outside": None}, "outside is not the object around"),
+        (BALL | {"center": (2.4, 0.2, 0.3)}, {}, "outside is not the object around"),
+        (SMALL_BALL, {"index_of_refraction": 1.5}, "equal indices"),
+        (TETRAHEDRON | {"vertices": tuple((x / 9, y / 9, z / 9) for x, y, z in CORNERS)}, {}, "overlap"),
+        (SMALL_BALL, {"around": {"dielectric": {"index_of_refraction": 1.5, "absorption": (1, 0, 0)}}}, "absorb"),
+        (SMALL_BALL, {"around": {"dielectric": WEIGHTS}}, "absorb"),
+    ],
+)
+def test_any_other_dielectric_at_another_is_refused(inner: dict[str, Any], changes: dict[str, Any], word: str) -> None:
+    assert word in str(nested(inner, **changes))
 
 
 @pytest.mark.parametrize(
