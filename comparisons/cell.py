@@ -28,6 +28,8 @@ CELL_FILE = "cell.json"
 TRUTH_FILE = "truth.exr"
 AREA_MEANS_FILE = "area-means.exr"
 LOG_FILE = "log.txt"
+UNFINISHED_CELL = ".unfinished-"
+"""What the name of a cell's folder begins with until it is whole."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,7 @@ def run_cell(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidenc
     """Render and judge in a temporary folder, which then takes the cell's place; a failed render is an error cell."""
     target = directory / place.folder
     target.parent.mkdir(parents=True, exist_ok=True)
-    folder = Path(mkdtemp(prefix=f".{target.name}-", dir=target.parent))
+    folder = Path(mkdtemp(prefix=f"{UNFINISHED_CELL}{target.name}-", dir=target.parent))
     try:
         cell = _judged(place, renderer, depth, evidence, folder)
         for scratch in (*folder.glob("*.npz"), *folder.glob("job.json")):

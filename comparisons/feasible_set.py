@@ -70,26 +70,31 @@ FIRST_HIT_OUTPUT = OutputModel("float32")
 
 
 def feasible_set(
-    scene: Scene, error_model: ErrorModel, overrides: Mapping[str, Callable[..., object]] | None = None
+    scene: Scene,
+    error_model: ErrorModel,
+    overrides: Mapping[str, Callable[..., object]] | None = None,
+    *,
+    with_colors: bool = True,
 ) -> FeasibleSet:
     """The feasible sets of all pixels of a scene; `overrides` replace functions of the tracer's source.
 
     All pixels are evaluated in plain balls, which is quick; those that they leave open, or too wide, in linked ones.
+    Without colours only the feasible sets of first hits are made, and no pixel has an outcome.
     """
     bound = radiance_bound(scene)
     pixels = [(column, line) for line in range(scene.camera.height) for column in range(scene.camera.width)]
     with ctx.workprec(ctx.prec):  # both ways of following rays set it
         plain = PixelEvaluator(PlainRays(scene, error_model, overrides), bound, FLOAT32_BITS)
         # A rasteriser's model tells of first hits alone.
-        has_colors = error_model.rasterisation is None
+        with_colors = with_colors and error_model.rasterisation is None
         colors: list[_Colors | None] = []
         hits = []
         for pixel in pixels:
-            colors.append(_colors(plain, pixel) if has_colors else None)
+            colors.append(_colors(plain, pixel) if with_colors else None)
             hits.append(_first_hits(plain, pixel))
         widest_radius = WIDE * _brightest(colors)
         wide = [place for place, color in enumerate(colors) if color is None or color.is_wide(widest_radius)]
-        wide = wide if has_colors else []
+        wide = wide if with_colors else []
         wide_hits = [place for place, hit in enumerate(hits) if hit is None]
         if wide or wide_hits:
             linked = PixelEvaluator(LinkedRays(scene, error_model, overrides), bound, FLOAT32_BITS)

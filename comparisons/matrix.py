@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-import hashlib
-from concurrent.futures import ProcessPoolExecutor, as_completed
+import os
+import signal
+import sys
+import threading
+from collections import deque
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from comparisons.cell import CELL_FILE, TRUTH_FILE, CellPlace, run_cell
+from comparisons.cell_key import cell_key
 from comparisons.comparability import depth_or_reason
 from comparisons.feasible_set import feasible_set
 from comparisons.image_judgement import Evidence
@@ -20,19 +25,21 @@ from comparisons.renderers.catalogue import all_renderers
 from comparisons.results import Cell, Verdict
 from reference_tracer.certified_image import certified_image, collect_garbage_rarely
 from reference_tracer.rendering import primary_rays, render
-from reference_tracer.source_digest import source_digest
 from scenes.library import open_scene
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
+    from concurrent.futures import Future
     from pathlib import Path
 
     from numpy.typing import NDArray
 
     from comparisons.error_model import ErrorModel
-    from comparisons.feasible_set import FeasibleSet
     from comparisons.renderer import Integrator, Renderer
     from scenes.scene import Scene
+
+INTERRUPTED = 130
+"""What a process that is interrupted ends with, as shells have it."""
 
 
 @dataclass(frozen=True)
@@ -55,12 +62,12 @@ class Plan:
 def plan_run(sources: Sequence[str], renderers: Sequence[str], directory: Path, *, fresh: bool) -> Plan:
     """Settle what is unavailable, incomparable, or already in the directory; the rest is to be rendered.
 
-    A cell is taken from the directory if its key is the same, that is the scene, the renderer's version and all of our
-    own code, unless `fresh`.
+    A cell is taken from the directory if its key (cell_key.py) is the same, unless `fresh`.
     """
     settled: list[Cell] = []
     by_scene: dict[str, tuple[PlannedCell, ...]] = {}
-    versions = {name: all_renderers()[name].version() for name in renderers}
+    with ThreadPoolExecutor() as pool:  # each may wait for a trial in a process of its own
+        versions = dict(zip(renderers, pool.map(lambda name: all_renderers()[name].version(), renderers), strict=True))
     for source in sources:
         scene = open_scene(source)
         planned: list[PlannedCell] = []
@@ -80,46 +87,104 @@ def plan_run(sources: Sequence[str], renderers: Sequence[str], directory: Path, 
 
 
 def run_plan(plan: Plan, directory: Path, jobs: int) -> Iterator[Cell]:
-    """The cells of the plan as they are finished; scenes run side by side in `jobs` processes.
+    """The cells of the plan as they are finished, from `jobs` processes side by side.
 
-    When the caller stops early, what runs is finished and the rest is dropped.
+    First the truth of a scene is made, then all cells of one error model are one task. When the caller stops early,
+    what runs is finished and the rest is dropped.
     """
+    waiting = deque(_Task(source) for source in sorted(plan.by_scene, key=_effort(plan), reverse=True))
+    running: dict[Future[list[Cell]], _Task] = {}
     # Fresh interpreters: threads of a forked one may hold locks for ever.
-    with ProcessPoolExecutor(jobs, get_context("spawn"), collect_garbage_rarely) as pool:
-        # The scenes with the most cells first, so that no long one is left for the end.
-        order = sorted(plan.by_scene, key=lambda source: -len(plan.by_scene[source]))
-        waiting = {pool.submit(run_scene, source, plan.by_scene[source], directory): source for source in order}
-        try:
-            for done in as_completed(waiting):
+    with ProcessPoolExecutor(jobs, get_context("spawn"), start_worker) as pool:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                task = waiting.popleft()
+                running[pool.submit(_do, task, directory)] = task
+            for done in wait(running, return_when=FIRST_COMPLETED).done:
+                task = running.pop(done)
                 failure = done.exception()
-                if failure is None:
+                if failure is not None:
+                    reason = f"raytruth itself failed on this scene: {type(failure).__name__}: {failure}"
+                    lost = task.cells or plan.by_scene[task.source]
+                    yield from (_settled(cell.place, Verdict.ERROR, reason) for cell in lost)
+                elif task.cells:
                     yield from done.result()
                 else:
-                    reason = f"raytruth itself failed on this scene: {type(failure).__name__}: {failure}"
-                    planned = plan.by_scene[waiting[done]]
-                    yield from (_settled(cell.place, Verdict.ERROR, reason) for cell in planned)
-        finally:
-            pool.shutdown(cancel_futures=True)
+                    # Before the next scene, so that little is lost when the run is killed.
+                    groups = _by_error_model(plan, task.source)
+                    waiting.extendleft(_Task(task.source, group) for group in reversed(groups))
 
 
-def run_scene(source: str, planned: Sequence[PlannedCell], directory: Path) -> list[Cell]:
-    """Truth once, the feasible set once for each error model, then every cell of one scene."""
+@dataclass(frozen=True)
+class _Task:
+    """Work of one process: cells of one scene and one error model; without cells, the truth of the scene."""
+
+    source: str
+    cells: tuple[PlannedCell, ...] = ()
+
+
+def _do(task: _Task, directory: Path) -> list[Cell]:
+    return run_cells(task.source, task.cells, directory) if task.cells else make_truth(task.source, directory)
+
+
+def _effort(plan: Plan) -> Callable[[str], int]:
+    """An estimate of how a scene's work compares with others', so that no long one is left for the end."""
+
+    def effort(source: str) -> int:
+        scene = open_scene(source)
+        # Each bounce is another ray for each pixel of each feasible set, and the truth is as much work again.
+        pixels = scene.camera.width * scene.camera.height
+        return pixels * (1 + scene.max_depth) * (1 + len(_by_error_model(plan, source)))
+
+    return effort
+
+
+def _by_error_model(plan: Plan, source: str) -> list[tuple[PlannedCell, ...]]:
+    """The cells of a scene that share a feasible set."""
+    groups: dict[ErrorModel, list[PlannedCell]] = {}
+    for cell in plan.by_scene[source]:
+        groups.setdefault(all_renderers()[cell.place.renderer].error_model, []).append(cell)
+    return [tuple(group) for group in groups.values()]
+
+
+def start_worker() -> None:
+    """Set up a process of the run: it ends when it is interrupted or when the run that started it is gone."""
+    collect_garbage_rarely()
+    signal.signal(signal.SIGINT, lambda *_: sys.exit(INTERRUPTED))  # quietly
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = parent_process()
+    assert parent is not None, "only workers are set up"
+    parent.join()
+    os._exit(INTERRUPTED)  # what renders in a process of its own is ended by its guard
+
+
+def make_truth(source: str, directory: Path) -> list[Cell]:
+    """Leave the truth of a scene in the results and in the cache of certified images; there are no cells yet."""
     scene = open_scene(source)
-    truth = _truth(scene)
-    rays = Rays(*primary_rays(scene))
     folder = directory / "cells" / scene.name
     folder.mkdir(parents=True, exist_ok=True)
-    write_image(folder / TRUTH_FILE, truth.astype(np.float32))
-    feasible: dict[ErrorModel, FeasibleSet] = {}
-    cells = []
-    for cell in planned:
-        renderer = all_renderers()[cell.place.renderer]
-        model = renderer.error_model
-        if model not in feasible:
-            feasible[model] = feasible_set(scene, model)
-        evidence = Evidence(scene, truth, rays, feasible[model])
-        cells.append(run_cell(cell.place, renderer, cell.depth, evidence, directory))
-    return cells
+    write_image(folder / TRUTH_FILE, _truth(scene).astype(np.float32))
+    return []
+
+
+def run_cells(source: str, planned: Sequence[PlannedCell], directory: Path) -> list[Cell]:
+    """The feasible set of one scene and one error model, then every cell that is judged by it."""
+    scene = open_scene(source)
+    renderers = [all_renderers()[cell.place.renderer] for cell in planned]
+    integrators = [
+        next(known for known in renderer.integrators if known.name == cell.place.integrator)
+        for cell, renderer in zip(planned, renderers, strict=True)
+    ]
+    has_image = any(integrator.gives == "image" for integrator in integrators)
+    feasible = feasible_set(scene, renderers[0].error_model, with_colors=has_image)
+    evidence = Evidence(scene, _truth(scene), Rays(*primary_rays(scene)), feasible)
+    return [
+        run_cell(cell.place, renderer, cell.depth, evidence, directory)
+        for cell, renderer in zip(planned, renderers, strict=True)
+    ]
 
 
 def _truth(scene: Scene) -> NDArray[np.float64]:
@@ -138,7 +203,7 @@ def _truth(scene: Scene) -> NDArray[np.float64]:
 def _planned(
     scene: Scene, source: str, renderer: Renderer, integrator: Integrator, version: str | None
 ) -> Cell | PlannedCell:
-    key = _key(scene, renderer, integrator, version)
+    key = cell_key(scene, renderer, integrator, version)
     place = CellPlace(scene.name, renderer.name, integrator.name, key, source, version)
     if version is None:
         return _settled(place, Verdict.UNAVAILABLE, f"{renderer.name} is not installed: {renderer.install}")
@@ -168,9 +233,3 @@ def _finished(directory: Path, planned: PlannedCell) -> Cell | None:
     except (OSError, ValueError):
         return None
     return cell if cell.key == planned.place.key and cell.verdict != Verdict.ERROR else None
-
-
-def _key(scene: Scene, renderer: Renderer, integrator: Integrator, version: str | None) -> str:
-    code = source_digest("scenes", "reference_tracer", "comparisons")
-    parts = (scene.model_dump_json(), renderer.name, integrator.name, str(version), code)
-    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]

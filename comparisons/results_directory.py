@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import datetime
+import errno
+import fcntl
 import os
 import platform
+import shutil
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from importlib.metadata import version
 from typing import TYPE_CHECKING, TypeVar
 
-from comparisons.cell import CELL_FILE
+from comparisons.cell import CELL_FILE, UNFINISHED_CELL
 from comparisons.images import ImageError, read_image
 from comparisons.metrics import compute_metrics_batch
 from comparisons.results import RESULTS_FILE, SCHEMA_VERSION, Cell, RendererRecord, Results, SceneRecord
@@ -17,13 +21,44 @@ from scenes.light_paths import whitted_class
 from scenes.requirements import required_features
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
     from pathlib import Path
 
     from comparisons.renderer import Renderer
     from scenes.scene import Scene
 
+
+UNFINISHED = (f"cells/*/{UNFINISHED_CELL}*", f".{RESULTS_FILE}.*", ".report-*")
+"""What is renamed when it is whole: folders of cells, results.json, the report."""
+
 Named = TypeVar("Named", SceneRecord, RendererRecord)
+
+
+@contextmanager
+def only_run_in(directory: Path) -> Iterator[None]:
+    """Make the directory and keep other runs from writing there; what a killed one left unfinished is removed.
+
+    Raises OSError where another run is writing.
+    """
+    directory.mkdir(parents=True, exist_ok=True)
+    handle = os.open(directory, os.O_RDONLY)
+    try:
+        _lock(handle, directory)
+        for pattern in UNFINISHED:
+            for path in directory.glob(pattern):
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+        yield
+    finally:
+        os.close(handle)
+
+
+def _lock(handle: int, directory: Path) -> None:
+    """The lock ends with this process, however that ends."""
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        told = "another run is writing there; wait for it, or give another --out"
+        raise OSError(errno.EBUSY, told, str(directory)) from error
 
 
 def write_results(

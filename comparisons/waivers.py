@@ -61,7 +61,8 @@ def load_waivers(path: Path = PACKAGED) -> tuple[Waiver, ...]:
     for number, waiver in enumerate(waivers):
         for key, name, known in _names(waiver):
             if name not in known:
-                raise WaiverError(f"{path}: [{number}].{key}: there is none called {quoted(name)}: {suggestion(name, known)}")
+                problem = f"there is none called {quoted(name)}: {suggestion(name, known)}"
+                raise WaiverError(f"{path}: [{number}].{key}: {problem}")
     return waivers
 
 

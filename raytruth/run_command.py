@@ -15,7 +15,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from comparisons.matrix import Plan, plan_run, run_plan
 from comparisons.renderers.catalogue import UnknownRendererError, select_renderers
 from comparisons.results import Verdict
-from comparisons.results_directory import with_metrics, write_results
+from comparisons.results_directory import only_run_in, with_metrics, write_results
 from comparisons.waivers import WaiverError, apply_waivers, load_waivers
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene
@@ -25,7 +25,7 @@ from reports.html import write_html_report
 from scenes.library import library_names
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from comparisons.renderer import Renderer
     from comparisons.results import Cell, Results
@@ -82,15 +82,23 @@ def run(
     known_failures = _waivers(waivers)
     sources = scenes or library_names()
     opened = _distinct([open_scene(source) for source in sources])
-    with progress("Looking for the renderers"):
-        plan = plan_run(sources, list(selected), out, fresh=fresh)
-    cells = _run(plan, out, jobs or os.cpu_count() or 1)
-    with progress("Measuring global differences"):
-        cells = with_metrics(out, cells)
-    versions = {name: renderer.version() for name, renderer in selected.items()}
-    cells, unmatched = apply_waivers(known_failures, cells, versions)
-    results = write_results(out, _command(), opened, list(selected.values()), cells)
-    report = write_html_report(out)
+    with only_run_in(out):
+        with progress("Looking for the renderers"):
+            plan = plan_run(sources, list(selected), out, fresh=fresh)
+        try:
+            cells = _run(plan, out, jobs or os.cpu_count() or 1)
+            with progress("Measuring global differences"):
+                cells = with_metrics(out, cells)
+        except KeyboardInterrupt:
+            # What is finished can be shown, and the next run goes on from there.
+            finished = plan_run(sources, list(selected), out, fresh=False).settled
+            write_results(
+                out, _command(), opened, list(selected.values()), _waived(known_failures, finished, selected)[0]
+            )
+            raise
+        cells, unmatched = _waived(known_failures, cells, selected)
+        results = write_results(out, _command(), opened, list(selected.values()), cells)
+        report = write_html_report(out)
     _show(results, report, as_json)
     return _status(cells, required.values(), unmatched)
 
@@ -101,6 +109,12 @@ def _waivers(path: Path | None) -> tuple[Waiver, ...]:
         return load_waivers() + (load_waivers(path) if path is not None else ())
     except WaiverError as error:
         raise UsageError(str(error)) from error
+
+
+def _waived(
+    known_failures: Iterable[Waiver], cells: Sequence[Cell], selected: Mapping[str, Renderer]
+) -> tuple[list[Cell], list[str]]:
+    return apply_waivers(known_failures, cells, {name: renderer.version() for name, renderer in selected.items()})
 
 
 def _split(names: Iterable[str]) -> list[str]:

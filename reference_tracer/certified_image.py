@@ -111,7 +111,7 @@ def collect_garbage_rarely() -> None:
 
 def _bands(scene: Scene) -> list[_Band]:
     versions = (flint.__version__, flint.__FLINT_VERSION__, np.__version__)
-    code = source_digest("scenes", "reference_tracer")
+    code = source_digest("scenes", "reference_tracer", without=("scenes/exporters",))
     key = hashlib.sha256("\n".join((scene.model_dump_json(), code, *versions)).encode()).hexdigest()[:16]
     folder = cache_folder() / "truth" / key
     rows = max(1, PIXELS_IN_A_BAND // scene.camera.width)

