@@ -99,7 +99,12 @@ def run_plan(plan: Plan, directory: Path, jobs: int) -> Iterator[Cell]:
         while waiting or running:
             while waiting and len(running) < jobs:
                 task = waiting.popleft()
-                running[pool.submit(_do, task, directory)] = task
+                # A process that is just starting, or waits, must not hear of an interruption: it would tell of it.
+                signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+                try:
+                    running[pool.submit(_do, task, directory)] = task
+                finally:
+                    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
             for done in wait(running, return_when=FIRST_COMPLETED).done:
                 task = running.pop(done)
                 failure = done.exception()
@@ -124,7 +129,11 @@ class _Task:
 
 
 def _do(task: _Task, directory: Path) -> list[Cell]:
-    return run_cells(task.source, task.cells, directory) if task.cells else make_truth(task.source, directory)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    try:
+        return run_cells(task.source, task.cells, directory) if task.cells else make_truth(task.source, directory)
+    finally:
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
 
 def _effort(plan: Plan) -> Callable[[str], int]:
