@@ -177,6 +177,8 @@ class RendererRecord(Record):
     error_model: str
     integrators: dict[str, str]
     """Light-path class of each integrator, in Heckbert's notation."""
+    family: str | None = None
+    """Renderers of one family share code and are one opinion; None: shares the truth's own source, and is none."""
 
 
 class Results(Record):

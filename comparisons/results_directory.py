@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, TypeVar
 from comparisons.cell import CELL_FILE, UNFINISHED_CELL
 from comparisons.images import ImageError, read_image
 from comparisons.metrics import compute_metrics_batch
+from comparisons.renderers.catalogue import family_of
 from comparisons.results import RESULTS_FILE, SCHEMA_VERSION, Cell, RendererRecord, Results, SceneRecord
 from scenes.light_paths import whitted_class
 from scenes.requirements import required_features
@@ -159,6 +160,7 @@ def _renderer_record(renderer: Renderer) -> RendererRecord:
         install=renderer.install,
         error_model=renderer.error_model.description,
         integrators={integrator.name: integrator.light_paths.format(depth="n") for integrator in renderer.integrators},
+        family=family_of(renderer.name),
     )
 
 

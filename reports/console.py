@@ -9,6 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from comparisons.results import Verdict
+from reports.agreement import in_one_line
 from reports.wording import (
     WAIVED,
     WORDINGS,
@@ -56,6 +57,9 @@ def print_matrix(results: Results, console: Console, report: Path | None = None)
     capped_line = capped(results)
     if capped_line is not None:
         _print_line(console, capped_line)
+    agreement_line = in_one_line(results)
+    if agreement_line is not None:
+        _print_line(console, agreement_line)
     if report is not None:
         _print_line(console, f"Report: {report}")
 

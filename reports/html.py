@@ -17,6 +17,7 @@ from urllib.parse import quote
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from reports import pictures, wording
+from reports.agreement import Agreement, agreement_on, in_one_line
 from reports.figures import Album, Figure, SharedPicture, cell_figures, data_uri
 from reports.loading import ReportError, load_results, read_log
 from reports.pixel_scripts import FOLDER, PixelView, write_pixel_script
@@ -53,6 +54,7 @@ class SceneView:
 
     record: SceneRecord
     anchor: str
+    agreement: Agreement | None = None
     cells: list[CellView | None] = field(default_factory=list)
 
     @property
@@ -107,6 +109,7 @@ def _render_page(directory: Path, results: Results, pixels: Path) -> str:
         headline=wording.headline(results),
         summary=wording.summary(results),
         capped=wording.capped(results),
+        agreement=in_one_line(results),
         counts=wording.outcome_counts(results),
         wordings=wording.WORDINGS,
         columns=wording.columns(results),
@@ -128,7 +131,7 @@ def _scene_views(directory: Path, results: Results, album: Album, pixels: Path) 
     cells = wording.cells_by_place(results)
     views = []
     for scene in results.scenes:
-        view = SceneView(scene, _anchor("scene", scene.name))
+        view = SceneView(scene, _anchor("scene", scene.name), agreement_on(directory, results, scene.name))
         for renderer, integrator in wording.columns(results):
             cell = cells.get((scene.name, renderer, integrator))
             view.cells.append(None if cell is None else _cell_view(directory, cell, album, pixels))

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 from comparisons.results import Verdict
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from comparisons.results import Cell, Results
 
 
@@ -125,6 +127,11 @@ def exact(value: float) -> str:
 def printable(text: str) -> str:
     """The text with every control character, of a terminal or of the writing direction, replaced by a visible mark."""
     return "".join(character if character.isprintable() or character in "\n\t" else "�" for character in text)
+
+
+def listed(names: Sequence[str]) -> str:
+    """`a`, `a and b`, `a, b and c`."""
+    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names)
 
 
 def plural(noun: str, count: int) -> str:

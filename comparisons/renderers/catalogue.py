@@ -18,6 +18,15 @@ if TYPE_CHECKING:
     from comparisons.renderer import Renderer
 
 
+# Those whose code is that of another are one opinion, under the name of their project. The tracer itself is none.
+_FAMILIES = {"mitsuba-llvm": "mitsuba", "embree-robust": "embree", "raytruth": None}
+
+
+def family_of(name: str) -> str | None:
+    """What a renderer is an opinion of, None for the tracer that the truth comes from."""
+    return _FAMILIES.get(name, name)
+
+
 class UnknownRendererError(Exception):
     """A name that no renderer has; the message is one sentence."""
 

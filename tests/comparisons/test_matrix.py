@@ -12,7 +12,7 @@ from comparisons.cell import CELL_FILE
 from comparisons.error_model import ErrorModel
 from comparisons.feasible_set import feasible_set
 from comparisons.images import read_image
-from comparisons.matrix import Plan, plan_run, run_cells, run_plan
+from comparisons.matrix import Plan, plan_run, run_plan
 from comparisons.renderer import Integrator, Rays, RendererError, Rendering
 from comparisons.renderers.closed_form import ClosedFormRenderer
 from comparisons.results import Cell, Verdict
