@@ -65,7 +65,10 @@ def _lock(handle: int, directory: Path) -> None:
 def write_results(
     directory: Path, command: str, scenes: Sequence[Scene], renderers: Sequence[Renderer], cells: Sequence[Cell]
 ) -> Results:
-    """Write results.json: these cells, and those of earlier runs into this directory that these do not replace."""
+    """Write results.json: these cells, and those of earlier runs into this directory that these do not replace.
+
+    Where that changes nothing, the file stays as it is, with the date of the results that it holds.
+    """
     earlier = _earlier(directory)
     place = {cell_place(cell): number for number, cell in enumerate(cells)}
     kept = [cell for cell in earlier.cells if cell_place(cell) not in place] if earlier else []
@@ -78,6 +81,8 @@ def write_results(
         renderers=_by_name((*(earlier.renderers if earlier else ()), *(_renderer_record(r) for r in renderers))),
         cells=tuple(sorted((*kept, *cells), key=lambda cell: cell.scene)),
     )
+    if earlier is not None and results.model_copy(update={"created": earlier.created}) == earlier:
+        return earlier
     write_whole(directory / RESULTS_FILE, results.model_dump_json(indent=1))
     return results
 

@@ -98,7 +98,7 @@ def run(
             raise
         cells, unmatched = _waived(known_failures, cells, selected)
         results = write_results(out, _command(), opened, list(selected.values()), cells)
-        report = write_html_report(out)
+        report = write_html_report(out, unless_current=True)
     _show(results, report, as_json)
     return _status(cells, required.values(), unmatched)
 

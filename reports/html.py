@@ -20,6 +20,7 @@ from reports import pictures, wording
 from reports.agreement import Agreement, agreement_on, in_one_line
 from reports.figures import Album, Figure, SharedPicture, cell_figures, data_uri
 from reports.loading import ReportError, load_results, read_log
+from reports.made_from import is_made_from, made_from
 from reports.pixel_scripts import FOLDER, PixelView, write_pixel_script
 
 if TYPE_CHECKING:
@@ -64,19 +65,23 @@ class SceneView:
         return next((figure.shared for figure in figures if figure.shared is not None), None)
 
 
-def write_html_report(directory: Path) -> Path:
+def write_html_report(directory: Path, *, unless_current: bool = False) -> Path:
     """Write `report.html` and the folder `pixels` into the results directory, and return the page's path.
 
     Each is written whole or not at all. Raises ReportError, in one sentence, where the results are missing or broken or
-    the page cannot be written; a missing image or log is told in its place on the page.
+    the page cannot be written; a missing image or log is told in its place on the page. A report
+    that was made from the very same results is left as it is if `unless_current`.
     """
     results = load_results(directory)
     path = directory / REPORT_FILE
+    source = made_from(directory)
+    if unless_current and is_made_from(path, source):
+        return path
     try:
         with TemporaryDirectory(prefix=".report-", dir=directory) as scratch:
             pixels = Path(scratch) / FOLDER
             page = Path(scratch) / REPORT_FILE
-            page.write_text(_render_page(directory, results, pixels), encoding="utf-8")
+            page.write_text(_render_page(directory, results, pixels, source), encoding="utf-8")
             page.replace(path)
             shutil.rmtree(directory / FOLDER, ignore_errors=True)
             if pixels.exists():
@@ -86,7 +91,7 @@ def write_html_report(directory: Path) -> Path:
     return path
 
 
-def _render_page(directory: Path, results: Results, pixels: Path) -> str:
+def _render_page(directory: Path, results: Results, pixels: Path, source: str) -> str:
     """The page as text; the values of the pixels are written into the folder `pixels`."""
     loader = PackageLoader("reports")
     environment = Environment(
@@ -106,6 +111,7 @@ def _render_page(directory: Path, results: Results, pixels: Path) -> str:
     scenes = _scene_views(directory, results, album, pixels)
     return environment.get_template("report.html.jinja").render(
         results=results,
+        source=source,
         headline=wording.headline(results),
         summary=wording.summary(results),
         capped=wording.capped(results),

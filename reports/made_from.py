@@ -1,0 +1,32 @@
+"""What a report was made from, as a digest: as long as that is the same, the report need not be made again."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from comparisons.results import RESULTS_FILE
+
+OURS = Path(__file__).parent
+# The digest stands in the head of the page.
+_HEAD_BYTES = 4096
+
+
+def made_from(directory: Path) -> str:
+    """Of results.json, the names, sizes and times of the cells' files, and the code and templates of reports."""
+    digest = hashlib.sha256((directory / RESULTS_FILE).read_bytes())
+    for path in sorted((directory / "cells").rglob("*")):
+        status = path.stat()
+        digest.update(f"{path.relative_to(directory)} {status.st_size} {status.st_mtime_ns}\n".encode())
+    for path in sorted([*OURS.rglob("*.py"), *(OURS / "templates").iterdir()]):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def is_made_from(page: Path, digest: str) -> bool:
+    """Whether the page is there and tells this digest."""
+    try:
+        with page.open("rb") as file:
+            return digest.encode() in file.read(_HEAD_BYTES)
+    except OSError:
+        return False
