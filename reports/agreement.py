@@ -137,7 +137,7 @@ def _compare(a: _Opinion, b: _Opinion) -> Comparison | None:
         near = (differences <= a.tolerance + b.tolerance).all(axis=2)
     agree = (a.feasible & b.feasible) | (~a.feasible & ~b.feasible & near)
     # At an edge right renderers may differ by all that there is.
-    counted = differences[(a.certain & b.certain) | ~agree]
+    counted = differences[a.certain & b.certain if agree.all() else ~agree]
     largest = float(counted.max(initial=0.0)) if not np.isnan(counted).any() else float("nan")
     return Comparison(bool(agree.all()), largest, int((~agree).sum()))
 
@@ -155,11 +155,11 @@ def _confirmation(cells: list[Cell], known: Mapping[str, str]) -> str:
     if not right:
         return "No independent reference agrees with the truth here."
     names = listed([name if name in seen else f"{name} (first hits only)" for name in sorted(right)])
-    if len(right) == 1:
+    if len(right) == 1 and not wrong:
         return f"One independent reference agrees with the truth: {names}."
     everyone = "Both" if len(right) == 2 else f"All {len(right)}"
     count = f"{len(right)} of {len(right | wrong)}" if wrong else everyone
-    return f"{count} independent references agree with the truth: {names}."
+    return f"{count} independent references {'agree' if len(right) > 1 else 'agrees'} with the truth: {names}."
 
 
 def _wrong(cells: list[Cell], opinions: list[_Opinion | None], known: Mapping[str, str]) -> list[str]:

@@ -85,7 +85,8 @@ def _scene(name: str) -> dict[str, Any]:
 def _renderer(name: str, version: str | None, integrators: dict[str, str]) -> dict[str, Any]:
     model = "float32 with 20 significant bits left after reordering; secondary rays start 8.94e-5·(1 + max|p|) off"
     install = f"pip install {name}"
-    return {"name": name, "version": version, "install": install, "error_model": model, "integrators": integrators}
+    record = {"name": name, "version": version, "install": install, "error_model": model, "integrators": integrators}
+    return {**record, "family": None if name == "reference" else name}
 
 
 def _cell(names: Names, verdict: str, reason: str, **more: Any) -> dict[str, Any]:

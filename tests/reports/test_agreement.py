@@ -137,7 +137,7 @@ def test_a_family_that_is_wrong_in_one_cell_confirms_nothing_and_others_do(tmp_p
     line = "Independent references: 1 of 2 scenes confirmed by two or more; one-fast is wrong on a."
     assert in_one_line(results(*cells)) == line
     assert in_one_line(results(bare("raytruth", "pass"))) is None
-    assert agreement(tmp_path, *cells).sentences[0].startswith("1 of 2 independent references agree")
+    assert agreement(tmp_path, *cells).sentences[0].startswith("1 of 2 independent references agrees with")
 
 
 def test_a_file_that_is_missing_leaves_its_pairs_out(tmp_path: Path) -> None:
