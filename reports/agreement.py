@@ -126,7 +126,9 @@ def _opinion(directory: Path, cell: Cell) -> _Opinion | None:
     high = np.take_along_axis(evidence.high, nearest, axis=2)[:, :, 0]
     certain = (~np.isnan(evidence.low[..., 0])).sum(axis=2) == 1
     with np.errstate(over="ignore", invalid="ignore"):
-        return _Opinion(image, (distances <= 1).all(axis=2), (high - low) / 2, certain)
+        feasible: NDArray[np.bool_] = distances.max(axis=2) <= 1
+        tolerance: NDArray[np.float32] = ((high - low) / 2).astype(np.float32)
+    return _Opinion(image, feasible, tolerance, certain)
 
 
 def _compare(a: _Opinion, b: _Opinion) -> Comparison | None:
