@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import sys
-import threading
 from collections import deque
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from multiprocessing import get_context, parent_process
+from multiprocessing import get_context
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,10 +16,11 @@ from comparisons.comparability import depth_or_reason
 from comparisons.feasible_set import feasible_set
 from comparisons.image_judgement import Evidence
 from comparisons.images import write_image
+from comparisons.interruption import at_work, interruption_held_back, start_worker
 from comparisons.renderer import Rays
 from comparisons.renderers.catalogue import all_renderers
 from comparisons.results import Cell, Verdict
-from reference_tracer.certified_image import certified_image, collect_garbage_rarely
+from reference_tracer.certified_image import certified_image
 from reference_tracer.rendering import primary_rays, render
 from scenes.library import open_scene
 
@@ -37,9 +34,6 @@ if TYPE_CHECKING:
     from comparisons.error_model import ErrorModel
     from comparisons.renderer import Integrator, Renderer
     from scenes.scene import Scene
-
-INTERRUPTED = 130
-"""What a process that is interrupted ends with, as shells have it."""
 
 
 @dataclass(frozen=True)
@@ -99,12 +93,8 @@ def run_plan(plan: Plan, directory: Path, jobs: int) -> Iterator[Cell]:
         while waiting or running:
             while waiting and len(running) < jobs:
                 task = waiting.popleft()
-                # A process that is just starting, or waits, must not hear of an interruption: it would tell of it.
-                signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-                try:
+                with interruption_held_back():
                     running[pool.submit(_do, task, directory)] = task
-                finally:
-                    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
             for done in wait(running, return_when=FIRST_COMPLETED).done:
                 task = running.pop(done)
                 failure = done.exception()
@@ -129,11 +119,8 @@ class _Task:
 
 
 def _do(task: _Task, directory: Path) -> list[Cell]:
-    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-    try:
+    with at_work():
         return run_cells(task.source, task.cells, directory) if task.cells else make_truth(task.source, directory)
-    finally:
-        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
 
 def _effort(plan: Plan) -> Callable[[str], int]:
@@ -154,20 +141,6 @@ def _by_error_model(plan: Plan, source: str) -> list[tuple[PlannedCell, ...]]:
     for cell in plan.by_scene[source]:
         groups.setdefault(all_renderers()[cell.place.renderer].error_model, []).append(cell)
     return [tuple(group) for group in groups.values()]
-
-
-def start_worker() -> None:
-    """Set up a process of the run: it ends when it is interrupted or when the run that started it is gone."""
-    collect_garbage_rarely()
-    signal.signal(signal.SIGINT, lambda *_: sys.exit(INTERRUPTED))  # quietly
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = parent_process()
-    assert parent is not None, "only workers are set up"
-    parent.join()
-    os._exit(INTERRUPTED)  # what renders in a process of its own is ended by its guard
 
 
 def make_truth(source: str, directory: Path) -> list[Cell]:
