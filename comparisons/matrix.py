@@ -160,7 +160,7 @@ def run_cells(source: str, planned: Sequence[PlannedCell], directory: Path) -> l
         next(known for known in renderer.integrators if known.name == cell.place.integrator)
         for cell, renderer in zip(planned, renderers, strict=True)
     ]
-    has_image = any(integrator.gives == "image" for integrator in integrators)
+    has_image = any(integrator.gives != "first hits" for integrator in integrators)
     feasible = feasible_set(scene, renderers[0].error_model, with_colors=has_image)
     evidence = Evidence(scene, _truth(scene), Rays(*primary_rays(scene)), feasible)
     return [

@@ -3,6 +3,7 @@ from __future__ import annotations
 import json
 from collections.abc import Generator
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -17,6 +18,7 @@ from comparisons.renderer import Integrator, Rays, RendererError, Rendering
 from comparisons.renderers.closed_form import ClosedFormRenderer
 from comparisons.results import Cell, Verdict
 from reference_tracer.rendering import primary_rays
+from scenes.light_paths import WHITTED
 from tests.comparisons.pretending import Pretender, truthful
 
 if TYPE_CHECKING:
@@ -195,6 +197,10 @@ def test_when_the_caller_stops_what_is_finished_stays(pretender: Pretender, tmp_
     assert pretender.calls == len(sources)
 
 
+def image_and_first_hits(scene: Scene, folder: Path) -> Rendering:
+    return replace(truthful(scene, folder), first_hits=first_hits(scene, folder).first_hits)
+
+
 def first_hits(scene: Scene, folder: Path) -> Rendering:
     exact = ClosedFormRenderer().render(scene, "local", 0, Rays(*primary_rays(scene)), folder)
     return Rendering(None, 0.5, exact.first_hits)
@@ -210,11 +216,13 @@ def test_the_feasible_set_is_made_once_for_renderers_of_one_error_model(
         return feasible_set(scene, model, **options)
 
     monkeypatch.setattr(matrix, "feasible_set", recorded)
-    other = ErrorModel("float32", precision_bits=24)
+    other, third = (ErrorModel("float32", precision_bits=bits) for bits in (24, 23))
+    both = (Integrator("whitted", WHITTED, has_depth=True, gives="image and first hits"),)
     renderers = {
-        "one": Pretender(name="one"),
+        "one": Pretender(name="one", integrators=both, answer=image_and_first_hits),
         "two": Pretender(name="two", error_model=other, integrators=FIRST_HITS, answer=first_hits),
         "three": Pretender(name="three"),
+        "four": Pretender(name="four", error_model=third, integrators=both, answer=image_and_first_hits),
     }
     monkeypatch.setattr(matrix, "all_renderers", lambda: renderers)
     monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
@@ -223,9 +231,14 @@ def test_the_feasible_set_is_made_once_for_renderers_of_one_error_model(
         ("one", Verdict.PASS),
         ("three", Verdict.PASS),
         ("two", Verdict.PASS),
+        ("four", Verdict.PASS),
     ]
     # Where only first hits are given, no colours are worked out.
-    assert made == [(Pretender().error_model, {"with_colors": True}), (other, {"with_colors": False})]
+    assert [(model.precision_bits, options["with_colors"]) for model, options in made] == [
+        (51, True),
+        (24, False),
+        (23, True),
+    ]
 
 
 def test_scenes_run_in_processes_of_their_own(tmp_path: Path) -> None:
