@@ -128,7 +128,7 @@ def test_another_scene_or_size_or_code_of_ours_makes_another_image(
     certified_image(scene())
     certified_image(library_scene("single-sphere", WIDTH, HEIGHT - 1))
     certified_image(library_scene("ambient-sphere", WIDTH, HEIGHT))
-    monkeypatch.setattr(module, "source_digest", lambda *_: "another")
+    monkeypatch.setattr(module, "source_digest", lambda *_, **__: "another")
     certified_image(scene())
     assert len(evaluated) == WIDTH * (4 * HEIGHT - 1)
 
