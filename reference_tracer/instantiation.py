@@ -13,6 +13,7 @@ What comes out is a readable Python file, which is what runs and what the compil
 from __future__ import annotations
 
 import ast
+import copy
 import inspect
 import textwrap
 from functools import cache
@@ -94,33 +95,48 @@ def kernel_source(
     An override's source is put in place of the function it overrides, under that function's name; it may use all that
     the function may. Raises KeyError for an override of a function that does not exist.
     """
-    functions, constants = _functions_and_constants(source_module())
+    _, constants = _functions_and_constants(source_module())
+    functions, literals = _pruned_functions(frozenset(features))
+    functions, namer = dict(functions), _LiteralNamer(dict(literals))
     for name, override in (overrides or {}).items():
         if name not in functions:
             raise KeyError(f"there is no function {name} in the tracer's source to override")
-        functions[name] = _override(name, override)
-    pruned = {name: _FeaturePruner(features).prune(function) for name, function in functions.items()}
-    reached = _reachable(pruned, entry_points)
-    mentioned = set().union(*map(_names, reached))
-    literals = _LiteralNamer()
+        functions[name] = namer.visit(_FeaturePruner(features).prune(_override(name, override)))
+    reached = _reachable(functions, entry_points)
+    mentioned = set().union(*(_names(function) for function in reached))
     body: list[ast.stmt] = [constant for name, constant in constants.items() if name in mentioned]
     for function in reached:
-        named = literals.visit(function)
-        decided = _ComparisonCalls().visit(named) if decided_comparisons else named
+        decided = _ComparisonCalls().visit(copy.deepcopy(function)) if decided_comparisons else function
         rounds = rounded_operations and function.name not in exact_functions()
-        body.append(_RoundingCalls().visit(decided) if rounds else decided)
-    return ast.unparse(ast.fix_missing_locations(ast.Module(body=body, type_ignores=[]))), literals.names
+        body.append(_RoundingCalls().visit(copy.deepcopy(decided)) if rounds else decided)
+    used = {name: value for name, value in namer.names.items() if name in mentioned}
+    return ast.unparse(ast.Module(body=body, type_ignores=[])), used
+
+
+def functions_of(features: Collection[str]) -> frozenset[str]:
+    """The names of the functions that a kernel with these features holds: overriding another one changes nothing."""
+    functions, _ = _pruned_functions(frozenset(features))
+    reached = _reachable(functions, ENTRY_POINTS)
+    return frozenset(function.name for function in reached)
+
+
+@cache
+def _pruned_functions(features: frozenset[str]) -> tuple[dict[str, ast.FunctionDef], dict[str, float]]:
+    """All functions for these features, and the names of their literals: shared by many kernels, so not to be changed."""
+    functions, _ = _functions_and_constants(source_module())
+    pruner, namer = _FeaturePruner(features), _LiteralNamer({})
+    return {name: namer.visit(pruner.prune(function)) for name, function in functions.items()}, namer.names
 
 
 def _bare(function: ast.FunctionDef) -> ast.FunctionDef:
     """Without docstring and annotations, whose names the kernel does not know."""
-    copy: ast.FunctionDef = ast.parse(ast.unparse(function)).body[0]  # type: ignore[assignment]
-    if ast.get_docstring(copy) is not None:
-        copy.body = copy.body[1:]
-    copy.returns = None
-    for argument in copy.args.args:
+    bare: ast.FunctionDef = ast.parse(ast.unparse(function)).body[0]  # type: ignore[assignment]
+    if ast.get_docstring(bare) is not None:
+        bare.body = bare.body[1:]
+    bare.returns = None
+    for argument in bare.args.args:
         argument.annotation = None
-    return copy
+    return bare
 
 
 def _override(name: str, override: Callable[..., object]) -> ast.FunctionDef:
@@ -161,8 +177,7 @@ class _FeaturePruner(ast.NodeTransformer):
         self.values = {name: name in features for name in vars(all_features) if name.isupper()}
 
     def prune(self, function: ast.FunctionDef) -> ast.FunctionDef:
-        copy = ast.parse(ast.unparse(function)).body[0]
-        pruned: ast.FunctionDef = self.visit(copy)
+        pruned: ast.FunctionDef = self.visit(ast.parse(ast.unparse(function)).body[0])
         return _without_unreachable_tail(pruned)
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
@@ -210,8 +225,8 @@ def _without_unreachable_tail(function: ast.FunctionDef) -> ast.FunctionDef:
 class _LiteralNamer(ast.NodeTransformer):
     """Gives each literal a name, as in `number_0_5`, and remembers its value."""
 
-    def __init__(self) -> None:
-        self.names: dict[str, float] = {}
+    def __init__(self, names: dict[str, float]) -> None:
+        self.names = names
 
     def visit_Constant(self, node: ast.Constant) -> ast.expr:
         if not isinstance(node.value, float):
