@@ -57,6 +57,12 @@ COMMANDS = {
         "Explain one pixel: every ray of its tree, every hit, normal, term and weight, and the sum.",
         "Examples: `raytruth explain whitted-1980 --pixel 80,60`, `raytruth explain mine.json --pixel 0,0 --json`",
     ),
+    "faults": (
+        "raytruth.faults_command:faults",
+        "Run the kill matrix: every known fault must be found on some scene, and no legitimate variant on any.",
+        "Exit status 0 if all faults are killed and no variant is flagged, else 1. What has not changed is taken over. "
+        "Examples: `raytruth faults`, `raytruth faults --json --out results`",
+    ),
     "report": (
         "raytruth.report_command:report",
         "Rebuild the report of a results directory from its files alone.",

@@ -96,36 +96,49 @@ def kernel_source(
     the function may. Raises KeyError for an override of a function that does not exist.
     """
     _, constants = _functions_and_constants(source_module())
-    functions, literals = _pruned_functions(frozenset(features))
-    functions, namer = dict(functions), _LiteralNamer(dict(literals))
+    pruned, literals = _pruned_functions(frozenset(features))
+    functions, namer = dict(pruned), _LiteralNamer(dict(literals))
     for name, override in (overrides or {}).items():
         if name not in functions:
             raise KeyError(f"there is no function {name} in the tracer's source to override")
-        functions[name] = namer.visit(_FeaturePruner(features).prune(_override(name, override)))
+        functions[name] = _PrunedFunction(namer.visit(_FeaturePruner(features).prune(_override(name, override))))
     reached = _reachable(functions, entry_points)
-    mentioned = set().union(*(_names(function) for function in reached))
-    body: list[ast.stmt] = [constant for name, constant in constants.items() if name in mentioned]
+    mentioned = frozenset().union(*(function.mentions for function in reached))
+    parts = [ast.unparse(constant) for name, constant in constants.items() if name in mentioned]
     for function in reached:
-        decided = _ComparisonCalls().visit(copy.deepcopy(function)) if decided_comparisons else function
-        rounds = rounded_operations and function.name not in exact_functions()
-        body.append(_RoundingCalls().visit(copy.deepcopy(decided)) if rounds else decided)
-    used = {name: value for name, value in namer.names.items() if name in mentioned}
-    return ast.unparse(ast.Module(body=body, type_ignores=[])), used
-
-
-def functions_of(features: Collection[str]) -> frozenset[str]:
-    """The names of the functions that a kernel with these features holds: overriding another one changes nothing."""
-    functions, _ = _pruned_functions(frozenset(features))
-    reached = _reachable(functions, ENTRY_POINTS)
-    return frozenset(function.name for function in reached)
+        rounds = rounded_operations and function.definition.name not in exact_functions()
+        if decided_comparisons or rounds:
+            changed = copy.deepcopy(function.definition)
+            changed = _ComparisonCalls().visit(changed) if decided_comparisons else changed
+            parts.append(ast.unparse(_RoundingCalls().visit(changed) if rounds else changed))
+        else:
+            parts.append(function.text)
+    return "\n".join(parts), {name: value for name, value in namer.names.items() if name in mentioned}
 
 
 @cache
-def _pruned_functions(features: frozenset[str]) -> tuple[dict[str, ast.FunctionDef], dict[str, float]]:
-    """All functions for these features, and the names of their literals: shared by many kernels, so not to be changed."""
+def functions_of(features: frozenset[str]) -> frozenset[str]:
+    """The names of the functions that a kernel with these features holds: overriding another one changes nothing."""
+    functions, _ = _pruned_functions(features)
+    return frozenset(function.definition.name for function in _reachable(functions, ENTRY_POINTS))
+
+
+class _PrunedFunction:
+    """A function for some features, with its literals named. Many kernels share it, so it is not to be changed."""
+
+    def __init__(self, definition: ast.FunctionDef) -> None:
+        self.definition = definition
+        self.mentions = frozenset(inner.id for inner in ast.walk(definition) if isinstance(inner, ast.Name))
+        self.text = ast.unparse(definition)
+
+
+@cache
+def _pruned_functions(features: frozenset[str]) -> tuple[dict[str, _PrunedFunction], dict[str, float]]:
+    """All functions for these features, and the values of their literals by name."""
     functions, _ = _functions_and_constants(source_module())
     pruner, namer = _FeaturePruner(features), _LiteralNamer({})
-    return {name: namer.visit(pruner.prune(function)) for name, function in functions.items()}, namer.names
+    pruned = {name: _PrunedFunction(namer.visit(pruner.prune(function))) for name, function in functions.items()}
+    return pruned, namer.names
 
 
 def _bare(function: ast.FunctionDef) -> ast.FunctionDef:
@@ -154,11 +167,7 @@ def _functions_and_constants(module: ast.Module) -> tuple[dict[str, ast.Function
     return functions, constants
 
 
-def _names(node: ast.AST) -> set[str]:
-    return {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}
-
-
-def _reachable(functions: dict[str, ast.FunctionDef], entry_points: tuple[str, ...]) -> list[ast.FunctionDef]:
+def _reachable(functions: dict[str, _PrunedFunction], entry_points: tuple[str, ...]) -> list[_PrunedFunction]:
     """The functions that the entry points need, in the order of the source."""
     wanted: set[str] = set()
     waiting = list(entry_points)
@@ -166,7 +175,7 @@ def _reachable(functions: dict[str, ast.FunctionDef], entry_points: tuple[str, .
         name = waiting.pop()
         if name not in wanted:
             wanted.add(name)
-            waiting.extend(_names(functions[name]) & functions.keys())
+            waiting.extend(functions[name].mentions & functions.keys())
     return [function for name, function in functions.items() if name in wanted]
 
 

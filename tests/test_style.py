@@ -16,6 +16,7 @@ ROOT = Path(__file__).parent.parent
 # What each folder may import of ours (README.md, "Folders"). A report reads records and images that others wrote.
 RECORDS = {
     "comparisons.results",
+    "comparisons.kill_results",
     "comparisons.images",
     "comparisons.pixel_evidence",
     "comparisons.renderer.Image",

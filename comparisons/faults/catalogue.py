@@ -1,0 +1,62 @@
+"""All faults by name."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+from comparisons.faults import (
+    absorption,
+    attenuation,
+    background,
+    camera,
+    depth,
+    fresnel,
+    highlights,
+    lights,
+    mirror,
+    normals,
+    numerics,
+    output,
+    pixels,
+    refraction,
+    shading,
+    shadows,
+    sphere,
+    textures,
+    traversal,
+    triangle,
+)
+from comparisons.faults.fault import subjects_in
+
+if TYPE_CHECKING:
+    from comparisons.faults.fault import Fault
+
+TOPICS = (
+    camera,
+    pixels,
+    sphere,
+    triangle,
+    normals,
+    shading,
+    highlights,
+    lights,
+    attenuation,
+    shadows,
+    mirror,
+    refraction,
+    fresnel,
+    absorption,
+    depth,
+    textures,
+    background,
+    traversal,
+    output,
+    numerics,
+)
+
+
+@cache
+def all_faults() -> dict[str, Fault]:
+    """Every fault of the catalogue, by name, in the order of the topics."""
+    return subjects_in(TOPICS)

@@ -1,0 +1,106 @@
+"""What a fault is, and how one is written down: a function of the tracer gone wrong, or of its finished image."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comparisons.error_model import ErrorModel
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+    from comparisons.output_model import OutputModel
+
+Array = NDArray[np.float64]
+Function = Callable[..., Any]
+Finish = Callable[[Array], Array]
+"""From the linear values that were computed, shape (height, width, 3), to those that are read from the file."""
+
+# What other formulas than the truth's may lose of float64's 53 bits: Fresnel's equations by cosines and ratios lose ten
+# for nearly equal indices, |o-c|² - r² fourteen at a height of 1 above a sphere of radius 100,000.
+BITS_FOR_OTHER_FORMULAS = 14
+STUDENT = ErrorModel(
+    f"float64, of which other formulas than the truth's may lose {BITS_FOR_OTHER_FORMULAS} bits",
+    precision_bits=53 - BITS_FOR_OTHER_FORMULAS,
+)
+"""What the renderer of an honest student declares: no fault hides behind it, and what is right passes."""
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A renderer under test: the tracer with some functions replaced, and what it declares of itself."""
+
+    name: str
+    words: str
+    """One sentence: of a fault, as a student would tell it."""
+    overrides: Mapping[str, Function] = field(default_factory=dict)
+    finish: Finish | None = None
+    numbers: Literal["float64", "float32"] = "float64"
+    gives: Literal["image", "first hits"] = "image"
+    declares: ErrorModel = STUDENT
+
+    def source(self) -> str:
+        """All that makes it what it is, as text."""
+        functions = [*self.overrides.values(), *([self.finish] if self.finish else [])]
+        texts = [*self.overrides, *(inspect.getsource(function) for function in functions)]
+        return "\n".join([self.name, self.numbers, self.gives, repr(self.declares), *texts])
+
+
+@dataclass(frozen=True)
+class Fault(Subject):
+    """A renderer that is wrong in one point."""
+
+    clause: str = ""
+    """The clause of docs/spec.md that it breaks."""
+    hint: str = ""
+    """Where to look, without the solution."""
+
+
+def fault(
+    clause: str,
+    function: str,
+    hint: str,
+    *,
+    gives: Literal["image", "first hits"] = "image",
+    numbers: Literal["float64", "float32"] = "float64",
+) -> Callable[[Function], Fault]:
+    """Make a fault of a function that stands in for one of the tracer's; its docstring is the student's sentence."""
+
+    def made(body: Function) -> Fault:
+        return Fault(
+            body.__name__, _words(body), {function: body}, None, numbers, gives, STUDENT, clause=clause, hint=hint
+        )
+
+    return made
+
+
+def output_fault(clause: str, hint: str, output: OutputModel | None = None) -> Callable[[Finish], Fault]:
+    """Make a fault of a function on the finished image, of a renderer that declares this output."""
+    declares = STUDENT if output is None else ErrorModel(STUDENT.description, STUDENT.precision_bits, output=output)
+
+    def made(finish: Finish) -> Fault:
+        return Fault(finish.__name__, _words(finish), {}, finish, declares=declares, clause=clause, hint=hint)
+
+    return made
+
+
+def subjects_in(modules: tuple[ModuleType, ...]) -> dict[str, Any]:
+    """All subjects that these modules define, by name, in their order. Raises ValueError for a name used twice."""
+    found: dict[str, Any] = {}
+    for module in modules:
+        for value in vars(module).values():
+            if isinstance(value, Subject):
+                if value.name in found:
+                    raise ValueError(f"two subjects are called {value.name}")
+                found[value.name] = value
+    return found
+
+
+def _words(function: Callable[..., object]) -> str:
+    return " ".join((function.__doc__ or "").split())

@@ -1,0 +1,168 @@
+"""Faults in how a dielectric splits light (docs/spec.md, REFR-4 to REFR-6 and REFR-8)."""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import TYPE_CHECKING
+
+from comparisons.faults.fault import fault
+from reference_tracer.features import CONSTANT_SPLIT, RADIOMETRIC
+from reference_tracer.refraction import fresnel_reflectance
+from reference_tracer.scene_data import (
+    MATERIAL_HAS_CONSTANT_SPLIT,
+    MATERIAL_REFLECTANCE,
+    MATERIAL_TRANSMITTANCE,
+    integer_of,
+    vector_of,
+)
+
+if TYPE_CHECKING:
+    from reference_tracer.numbers import Scalar, Vector
+    from reference_tracer.scene_data import SceneData
+
+
+@fault("REFR-4", "fresnel_reflectance", "Is an approximation of Fresnel's equations good enough here?")
+def schlick(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
+    """Schlick's approximation (1994) is used in place of Fresnel's equations, with the cosine on the thinner side."""
+    normal_incidence = ((ratio - 1.0) / (ratio + 1.0)) * ((ratio - 1.0) / (ratio + 1.0))
+    thin = cosine
+    if ratio < 1.0:
+        thin = g / ratio
+    rest = 1.0 - thin
+    return normal_incidence + (1.0 - normal_incidence) * rest * rest * rest * rest * rest
+
+
+@fault("REFR-8", "fresnel_reflectance", "What is R just before the critical angle?")
+def schlick_by_the_incident_cosine(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
+    """Schlick's approximation takes the cosine of incidence on both sides, so both sides differ along one path."""
+    normal_incidence = ((ratio - 1.0) / (ratio + 1.0)) * ((ratio - 1.0) / (ratio + 1.0))
+    rest = 1.0 - cosine
+    return normal_incidence + (1.0 - normal_incidence) * rest * rest * rest * rest * rest
+
+
+@fault("REFR-4", "fresnel_reflectance", "Does glass reflect the same at every angle?")
+def reflectance_of_normal_incidence(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
+    """The reflectance at normal incidence is used for all angles."""
+    return ((ratio - 1.0) / (ratio + 1.0)) * ((ratio - 1.0) / (ratio + 1.0))
+
+
+@fault("REFR-4", "fresnel_reflectance", "How many polarisations has light?")
+def one_polarisation_only(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
+    """Only the polarisation across the plane of incidence is taken."""
+    amplitude = (cosine - g) / (cosine + g)
+    return amplitude * amplitude
+
+
+@fault("REFR-4", "fresnel_reflectance", "What adds up: amplitudes or intensities?")
+def amplitudes_averaged(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
+    """Both amplitudes are averaged and then squared, instead of the other way round."""
+    across = (cosine - g) / (cosine + g)
+    within = (ratio * ratio * cosine - g) / (ratio * ratio * cosine + g)
+    mean = 0.5 * (abs(across) + abs(within))
+    return mean * mean
+
+
+@fault("REFR-4", "fresnel_reflectance", "What happens at the rim of a glass ball?")
+def wrong_at_grazing_angles_only(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
+    """The reflectance is right up to a cosine of 0.2 and stays there for all flatter rays."""
+    steep = max(cosine, 0.2)
+    cosine_beyond = sqrt(g * g + steep * steep - cosine * cosine)
+    across = (steep - cosine_beyond) / (steep + cosine_beyond)
+    within = (ratio * ratio * steep - cosine_beyond) / (ratio * ratio * steep + cosine_beyond)
+    return 0.5 * (across * across + within * within)
+
+
+@fault("REFR-4", "fresnel_reflectance", "How well do you know R?")
+def reflectance_one_percent_off(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
+    """The reflectance is one percent too low."""
+    across = (cosine - g) / (cosine + g)
+    within = (ratio * ratio * cosine - g) / (ratio * ratio * cosine + g)
+    return 0.495 * (across * across + within * within)
+
+
+@fault("REFR-8", "fresnel_reflectance", "How much does a surface reflect between two equal media?")
+def always_four_percent(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
+    """Every dielectric reflects at least the four percent of window glass, however small the step of the index."""
+    across = (cosine - g) / (cosine + g)
+    within = (ratio * ratio * cosine - g) / (ratio * ratio * cosine + g)
+    return max(0.04, 0.5 * (across * across + within * within))
+
+
+@fault("REFR-5", "split", "How does radiance change where light is squeezed into a narrower cone?")
+def radiance_not_scaled(
+    scene: SceneData, material: int, cosine: Scalar, g: Scalar, ratio: Scalar
+) -> tuple[Vector, Vector]:
+    """The transmitted radiance is not divided by the square of the index ratio."""
+    if CONSTANT_SPLIT:
+        if integer_of(scene, MATERIAL_HAS_CONSTANT_SPLIT, material):
+            return vector_of(scene, MATERIAL_REFLECTANCE, material), vector_of(scene, MATERIAL_TRANSMITTANCE, material)
+    reflected = fresnel_reflectance(cosine, g, ratio)
+    transmitted = 1.0 - reflected
+    return (reflected, reflected, reflected), (transmitted, transmitted, transmitted)
+
+
+@fault("REFR-5", "split", "In which direction do you follow the light: from the camera or from the lamp?")
+def radiance_scaled_the_wrong_way(
+    scene: SceneData, material: int, cosine: Scalar, g: Scalar, ratio: Scalar
+) -> tuple[Vector, Vector]:
+    """The transmitted radiance is multiplied by the square of the index ratio instead of divided by it."""
+    if CONSTANT_SPLIT:
+        if integer_of(scene, MATERIAL_HAS_CONSTANT_SPLIT, material):
+            return vector_of(scene, MATERIAL_REFLECTANCE, material), vector_of(scene, MATERIAL_TRANSMITTANCE, material)
+    reflected = fresnel_reflectance(cosine, g, ratio)
+    transmitted = 1.0 - reflected
+    if RADIOMETRIC:
+        transmitted = transmitted * (ratio * ratio)
+    return (reflected, reflected, reflected), (transmitted, transmitted, transmitted)
+
+
+@fault("REFR-5", "split", "In which of the two conventions does radiance scale?")
+def radiance_scaled_in_the_classical_equation(
+    scene: SceneData, material: int, cosine: Scalar, g: Scalar, ratio: Scalar
+) -> tuple[Vector, Vector]:
+    """The transmitted light is divided by the square of the index ratio in the classical convention, too."""
+    if CONSTANT_SPLIT:
+        if integer_of(scene, MATERIAL_HAS_CONSTANT_SPLIT, material):
+            return vector_of(scene, MATERIAL_REFLECTANCE, material), vector_of(scene, MATERIAL_TRANSMITTANCE, material)
+    reflected = fresnel_reflectance(cosine, g, ratio)
+    transmitted = (1.0 - reflected) / (ratio * ratio)
+    return (reflected, reflected, reflected), (transmitted, transmitted, transmitted)
+
+
+@fault("REFR-5", "split", "What do the reflected and the transmitted part add up to?")
+def all_of_it_transmitted(
+    scene: SceneData, material: int, cosine: Scalar, g: Scalar, ratio: Scalar
+) -> tuple[Vector, Vector]:
+    """What is reflected is not taken away from what is transmitted."""
+    if CONSTANT_SPLIT:
+        if integer_of(scene, MATERIAL_HAS_CONSTANT_SPLIT, material):
+            return vector_of(scene, MATERIAL_REFLECTANCE, material), vector_of(scene, MATERIAL_TRANSMITTANCE, material)
+    reflected = fresnel_reflectance(cosine, g, ratio)
+    transmitted = 1.0
+    if RADIOMETRIC:
+        transmitted = transmitted / (ratio * ratio)
+    return (reflected, reflected, reflected), (transmitted, transmitted, transmitted)
+
+
+@fault("REFR-5", "total_reflection_weight", "Where does the light go that cannot get out of the glass?")
+def total_reflection_is_black(scene: SceneData, material: int) -> Vector:
+    """Rays that are totally reflected end there and bring nothing."""
+    return (0.0, 0.0, 0.0)
+
+
+@fault("REFR-6", "split", "Which material states its own constants, and where do you use them?")
+def constants_ignored(
+    scene: SceneData, material: int, cosine: Scalar, g: Scalar, ratio: Scalar
+) -> tuple[Vector, Vector]:
+    """Fresnel's equations are used for materials that state the classical constants."""
+    reflected = fresnel_reflectance(cosine, g, ratio)
+    transmitted = 1.0 - reflected
+    if RADIOMETRIC:
+        transmitted = transmitted / (ratio * ratio)
+    return (reflected, reflected, reflected), (transmitted, transmitted, transmitted)
+
+
+@fault("REFR-6", "total_reflection_weight", "How much does glass with constants reflect beyond the critical angle?")
+def total_reflection_in_full(scene: SceneData, material: int) -> Vector:
+    """Beyond the critical angle everything is reflected, also where the material states a reflectance."""
+    return (1.0, 1.0, 1.0)

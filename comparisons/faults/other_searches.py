@@ -1,0 +1,93 @@
+"""Legitimate variants by the order of the work: what is looked at first, and what is summed first."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING
+
+from comparisons.faults.other_formulas import variant
+from reference_tracer.bounding_volume import box_is_missed
+from reference_tracer.features import BOUNDING_VOLUMES
+from reference_tracer.ray_tree import trace_ray
+from reference_tracer.scene_data import (
+    NODE_END,
+    NODE_FIRST_TRIANGLE,
+    NODE_HIGH,
+    NODE_LOW,
+    NODE_ORDER,
+    NODE_TRIANGLES,
+    SPHERE_MATERIAL,
+    SPHERE_RADIUS,
+    TRIANGLE_MATERIAL,
+    SceneData,
+    integer_of,
+    rows_of,
+    vector_of,
+)
+from reference_tracer.traversal import NOTHING, distance_to_sphere, distance_to_triangle
+from reference_tracer.vector import add
+
+if TYPE_CHECKING:
+    from reference_tracer.numbers import Scalar, Vector
+
+
+@variant("nearest_sphere")
+def spheres_from_last_to_first(scene: SceneData, origin: Vector, direction: Vector, left: int) -> tuple[Scalar, int]:
+    """The spheres are tested in reverse order."""
+    nearest = inf
+    hit = NOTHING
+    spheres = rows_of(scene, SPHERE_RADIUS)
+    for place in range(spheres):
+        sphere = spheres - 1 - place
+        distance = distance_to_sphere(scene, origin, direction, left, sphere)
+        if distance <= nearest and distance < inf:
+            nearest = distance
+            hit = sphere
+    return nearest, hit
+
+
+@variant("nearest_triangle")
+def boxes_from_last_to_first(
+    scene: SceneData, origin: Vector, direction: Vector, left: int, nearest: Scalar, hit: int
+) -> tuple[Scalar, int]:
+    """The leaves of the tree of boxes are visited in reverse order."""
+    spheres = rows_of(scene, SPHERE_MATERIAL)
+    if BOUNDING_VOLUMES:
+        nodes = rows_of(scene, NODE_END)
+        for step in range(nodes):
+            node = nodes - 1 - step
+            first = integer_of(scene, NODE_FIRST_TRIANGLE, node)
+            low = vector_of(scene, NODE_LOW, node)
+            if integer_of(scene, NODE_TRIANGLES, node) > 0:
+                if not box_is_missed(origin, direction, low, vector_of(scene, NODE_HIGH, node), nearest):
+                    for place in range(first, first + integer_of(scene, NODE_TRIANGLES, node)):
+                        triangle = integer_of(scene, NODE_ORDER, place)
+                        distance = distance_to_triangle(scene, origin, direction, left - spheres, triangle)
+                        if distance < nearest:
+                            nearest = distance
+                            hit = spheres + triangle
+    else:
+        triangles = rows_of(scene, TRIANGLE_MATERIAL)
+        for place in range(triangles):
+            triangle = triangles - 1 - place
+            distance = distance_to_triangle(scene, origin, direction, left - spheres, triangle)
+            if distance < nearest:
+                nearest = distance
+                hit = spheres + triangle
+    return nearest, hit
+
+
+@variant("box_is_missed")
+def every_box_entered(origin: Vector, direction: Vector, low: Vector, high: Vector, end: Scalar) -> bool:
+    """No box is ever skipped: all triangles are tested, as without a tree."""
+    return False
+
+
+@variant("radiance")
+def breadth_first(scene: SceneData, origin: Vector, direction: Vector, medium: int, depth: int) -> Vector:
+    """The rays of the tree are followed, and summed, in the order in which they were sent on."""
+    total = (0.0, 0.0, 0.0)
+    waiting = [(origin, direction, (1.0, 1.0, 1.0), NOTHING, medium, depth)]
+    while len(waiting) > 0:
+        total = add(total, trace_ray(scene, waiting.pop(0), waiting))
+    return total

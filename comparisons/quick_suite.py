@@ -1,0 +1,44 @@
+"""The quick suite: the scenes that kill every fault of the catalogue in the least time, at the kill matrix's size."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.optimize import Bounds, LinearConstraint, milp
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+QUICK_FILE = Path(__file__).with_name("quick_suite.json")
+
+
+def quick_scenes() -> tuple[str, ...]:
+    """The names of the scenes, as `raytruth faults --write-quick` found them."""
+    return tuple(json.loads(QUICK_FILE.read_text(encoding="utf-8")))
+
+
+def write_quick_scenes(names: Sequence[str]) -> None:
+    """Make this the quick suite."""
+    QUICK_FILE.write_text(json.dumps(list(names), indent=1) + "\n", encoding="utf-8")
+
+
+def smallest_cover(killers: Sequence[set[str]], costs: Mapping[str, float]) -> tuple[str, ...]:
+    """The cheapest scenes such that each fault is killed by one of them; `killers` are the scenes that kill a fault.
+
+    Exact: a set cover is an integer program, which HiGHS solves (scipy.optimize.milp) in a fraction of a second.
+    """
+    if not killers:
+        return ()
+    names = sorted(costs)
+    rows = np.array([[name in scenes for name in names] for scenes in killers], dtype=np.float64)
+    solution = milp(
+        [costs[name] for name in names],
+        integrality=np.ones(len(names)),
+        bounds=Bounds(0, 1),
+        constraints=LinearConstraint(rows, lb=1),
+    )
+    assert solution.success, f"the set cover has a solution: {solution.message}"
+    return tuple(name for name, taken in zip(names, solution.x, strict=True) if taken > 0.5)

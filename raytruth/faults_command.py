@@ -1,0 +1,90 @@
+"""`raytruth faults`."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from comparisons.kill_run import kill_results, run_kills, write_kill_results
+from comparisons.quick_suite import write_quick_scenes
+from raytruth.errors import UsageError
+from raytruth.options import AsJson, open_scene
+from reports.kills import print_kills, write_kill_report
+from scenes.library import library_names
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from comparisons.kill_matrix import SceneKills
+
+FAILED = 1
+
+
+def faults(
+    *scenes: str,
+    out: Path = Path("results"),
+    jobs: int | None = None,
+    fresh: Annotated[bool, Parameter(negative="")] = False,
+    write_quick: Annotated[bool, Parameter(negative="")] = False,
+    as_json: AsJson = False,
+) -> int:
+    """Run the kill matrix: every known fault must be found on some scene, and no legitimate variant on any.
+
+    Exit status 0 if all faults are killed and no variant is flagged, else 1.
+
+    Parameters
+    ----------
+    scenes
+        Names of library scenes, or paths of scene files; the whole library by default.
+    out
+        The results directory: `faults.json`, the page `faults.html`, and what a later run takes over.
+    jobs
+        How many scenes are worked on side by side; one a processor by default.
+    fresh
+        Judge every scene again.
+    write_quick
+        Make the smallest set of scenes that kills everything the suite of `raytruth run --quick`.
+    as_json
+        Print the results as one JSON document instead of the tables.
+    """
+    if jobs is not None and jobs < 1:
+        raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
+    sources = scenes or library_names()
+    for source in sources:
+        open_scene(source)
+    start = time.perf_counter()
+    kills = _run(sources, out, jobs or os.cpu_count() or 1, fresh=fresh)
+    results = kill_results(kills, time.perf_counter() - start)
+    write_kill_results(out, results)
+    page = write_kill_report(out)
+    if write_quick:
+        write_quick_scenes(results.quick)
+    if as_json:
+        print(results.model_dump_json(indent=2))
+    else:
+        print_kills(results, Console(), page)
+    return FAILED if results.survivors or results.false_alarms else 0
+
+
+def _run(sources: Sequence[str], out: Path, jobs: int, *, fresh: bool) -> list[SceneKills]:
+    """All scenes, saying how far it has come."""
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    done: list[SceneKills] = []
+    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
+        task = bar.add_task("Judging faults and variants", total=len(sources))
+        for kills in run_kills(sources, out, jobs, fresh=fresh):
+            done.append(kills)
+            bar.advance(task)
+            if not console.is_terminal:
+                failing = sum(cell.fails for cell in kills.cells)
+                line = f"[{len(done)}/{len(sources)}] {kills.scene}: {failing} of {len(kills.cells)} fail"
+                print(line, file=sys.stderr, flush=True)
+    return done

@@ -1,0 +1,119 @@
+"""The kill matrix as shown: on a terminal, as an HTML page, and as the table of docs/kill-matrix.md."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from rich.text import Text
+
+from comparisons.kill_results import read_kill_results
+from reports import wording
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from rich.console import Console
+
+    from comparisons.kill_results import FaultResult, KillResults, SubjectResult
+
+PAGE_FILE = "faults.html"
+SHADES = 5
+"""Of the heat map: how many times further from passing, in steps of a factor of 100."""
+
+
+def summary(results: KillResults) -> str:
+    """One sentence."""
+    killed = sum(fault.killed for fault in results.faults)
+    flagged = len(results.false_alarms)
+    return (
+        f"{killed} of {len(results.faults)} faults are killed by {len(results.scenes)} scenes; "
+        f"{flagged} of {len(results.variants)} legitimate variants are flagged."
+    )
+
+
+def gate_counts(results: KillResults) -> list[tuple[str, int, int]]:
+    """Each way of judging, how many faults it finds and how many legitimate variants it flags; ours first."""
+    ours = sum(fault.killed for fault in results.faults), len(results.false_alarms)
+    return [
+        ("raytruth: every pixel in its feasible set", *ours),
+        *((gate, _rejected(results.faults, gate), _rejected(results.variants, gate)) for gate in results.gates),
+    ]
+
+
+def _rejected(subjects: Sequence[SubjectResult], gate: str) -> int:
+    return sum(gate in subject.gates for subject in subjects)
+
+
+def print_kills(results: KillResults, console: Console, page: Path | None = None) -> None:
+    """A line for each fault (how far it is from passing, on how many scenes, its clause), and what it comes to."""
+    for fault in results.faults:
+        judged = f"{len(fault.killed_by)} of {len(fault.margins)} scenes"
+        _line(console, f"{_state(fault):<9} {fault.clause:<7} {fault.name}: {judged}, margin {margin(fault.margin)}")
+    for variant in results.variants:
+        if variant.flagged:
+            _line(console, f"flagged   variant {variant.name}: on {', '.join(variant.failed_on)}")
+    for judge, faults, variants in gate_counts(results):
+        _line(console, f"{judge}: kills {faults} of {len(results.faults)}, flags {variants} of {len(results.variants)}")
+    _line(console, f"Quick suite, {quick_seconds(results):.3g} s a renderer: {' '.join(results.quick)}")
+    _line(console, summary(results))
+    if page is not None:
+        _line(console, f"Page: {page}")
+
+
+def _line(console: Console, text: str) -> None:
+    """Never wrapped, so that it can be searched and copied."""
+    console.print(Text(wording.printable(text)), soft_wrap=True)
+
+
+def _state(fault: FaultResult) -> str:
+    return "killed" if fault.killed else "SURVIVES"
+
+
+def margin(value: float | None) -> str:
+    """In tolerances, to two digits; infinite where there is none."""
+    return "∞" if value is None else f"{value:.2g}"
+
+
+def quick_seconds(results: KillResults) -> float:
+    """What the quick suite takes for one renderer."""
+    return sum(results.scenes[name] for name in results.quick)
+
+
+def shade(value: float | None) -> int:
+    """The place of a margin on the heat map: 0 for a pass, else 1 to SHADES."""
+    if value is None:
+        return SHADES
+    step, limit = 0, 1.0
+    while value > limit and step < SHADES:
+        step, limit = step + 1, limit * 100.0
+    return step
+
+
+def write_kill_report(directory: Path) -> Path:
+    """Write `faults.html` into a results directory that has `faults.json`, whole or not at all; returns its path."""
+    results = read_kill_results(directory)
+    loader = PackageLoader("reports")
+    environment = Environment(
+        loader=loader,
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        finalize=lambda value: wording.printable(value) if type(value) is str else value,
+    )
+    environment.filters["margin"] = margin
+    environment.filters["shade"] = shade
+    text = environment.get_template("kills.html.jinja").render(
+        results=results,
+        summary=summary(results),
+        gates=gate_counts(results),
+        quick_seconds=quick_seconds(results),
+        style=loader.get_source(environment, "report.css")[0],
+    )
+    path = directory / PAGE_FILE
+    unfinished = directory / f".{PAGE_FILE}"
+    unfinished.write_text(text, encoding="utf-8")
+    unfinished.replace(path)
+    return path
