@@ -23,12 +23,23 @@ if TYPE_CHECKING:
 
 # The window of SSIM's mean is an odd number of pixels, and no wider than the image; 7 is scikit-image's own.
 SSIM_WINDOW = 7
-# The largest possible difference of two colours in pixelmatch's measure, which its threshold is a fraction of.
-LARGEST_YIQ_DIFFERENCE = 35215.0
+# Pixelmatch's: columns are Y, I and Q of the NTSC standard; their weights; and the largest that comes of two colours.
+YIQ = np.array(
+    [
+        [0.29889531, 0.59597799, 0.21147017],
+        [0.58662247, -0.27417610, -0.52261711],
+        [0.11448223, -0.32180189, 0.31114694],
+    ]
+)
+YIQ_WEIGHTS = np.array([0.5053, 0.299, 0.1957])
+LARGEST_YIQ_MEASURE = 35215.0
 
 
 def passes_ssim_and_psnr(render: Array, truth: Array) -> bool:
-    """SSIM above 0.70 and PSNR above 20 dB of 8-bit pictures: ANARI's conformance tests (Khronos, ANARI-SDK, cts)."""
+    """SSIM above 0.70 and PSNR above 20 dB of 8-bit pictures: ANARI's conformance tests (Khronos, ANARI-SDK, cts).
+
+    As its comment means it: the code lets the second verdict overwrite the first.
+    """
     a, b = as_picture(render), as_picture(truth)
     mean_square = float(((a - b) ** 2).mean())
     psnr = np.inf if mean_square == 0.0 else 20.0 * np.log10(255.0) - 10.0 * np.log10(mean_square)
@@ -44,9 +55,9 @@ def passes_mean(render: Array, truth: Array) -> bool:
 
 
 def passes_decibels(render: Array, truth: Array) -> bool:
-    """A root mean square difference below -22 dB of white: the fidelity tests of model-viewer (Google)."""
-    difference = as_picture(render) / 255.0 - as_picture(truth) / 255.0
-    return bool(np.sqrt((difference**2).mean()) < 10.0 ** (-22.0 / 20.0))
+    """A root mean square of pixelmatch's measure below -22 dB of its largest: model-viewer's fidelity tests."""
+    ratio = np.sqrt((_yiq_measure(render, truth) ** 2).mean()) / LARGEST_YIQ_MEASURE
+    return bool(ratio <= 10.0 ** (-22.0 / 10.0))
 
 
 def passes_one_percent(render: Array, truth: Array) -> bool:
@@ -62,16 +73,21 @@ def passes_eight_components(render: Array, truth: Array) -> bool:
 
 
 def passes_pixelmatch(render: Array, truth: Array) -> bool:
-    """No pixel off by more than pixelmatch's threshold 0.2, in its YIQ measure (Kotsarenko, Ramos 2010).
+    """No more than 5 % of the pixels off by more than pixelmatch's threshold 0.2: three.js's end-to-end tests.
 
-    Without its detection of anti-aliased pixels: these images have none.
+    Without pixelmatch's detection of anti-aliased pixels: these images have none.
     """
-    d = as_picture(render) - as_picture(truth)
-    y = d @ np.array([0.29889531, 0.58662247, 0.11448223])
-    i = d @ np.array([0.59597799, -0.27417610, -0.32180189])
-    q = d @ np.array([0.21147017, -0.52261711, 0.31114694])
-    measure = 0.5053 * y * y + 0.299 * i * i + 0.1957 * q * q
-    return bool((measure <= LARGEST_YIQ_DIFFERENCE * 0.2 * 0.2).all())
+    off = _yiq_measure(render, truth) > LARGEST_YIQ_MEASURE * 0.2 * 0.2
+    return float(off.mean()) <= 0.05
+
+
+def _yiq_measure(render: Array, truth: Array) -> Array:
+    """Pixelmatch's squared difference of each pixel's colour (Kotsarenko, Ramos, "Measuring Perceived Color Difference
+    using YIQ NTSC Transmission Color Space in Mobile Applications", 2010).
+    """
+    yiq = (as_picture(render) - as_picture(truth)) @ YIQ
+    measure: Array = (yiq * yiq) @ YIQ_WEIGHTS
+    return measure
 
 
 GATES: dict[str, Callable[[Array, Array], bool]] = {
@@ -80,7 +96,7 @@ GATES: dict[str, Callable[[Array, Array], bool]] = {
     "-22 dB": passes_decibels,
     "0.016 on 1 % of pixels": passes_one_percent,
     "8 components over 2/255": passes_eight_components,
-    "pixelmatch 0.2": passes_pixelmatch,
+    "pixelmatch 0.2 on 5 % of pixels": passes_pixelmatch,
 }
 """Each gate by what it asks for."""
 
