@@ -9,9 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 
+from comparisons.kill_matrix import small
+from scenes.exporters.json_scene import export_json
+from scenes.library import open_scene
+
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+QUICK_FOLDER = "quick-suite"
 QUICK_FILE = Path(__file__).with_name("quick_suite.json")
 
 
@@ -23,6 +28,13 @@ def quick_scenes() -> tuple[str, ...]:
 def write_quick_scenes(names: Sequence[str]) -> None:
     """Make this the quick suite."""
     QUICK_FILE.write_text(json.dumps(list(names), indent=1) + "\n", encoding="utf-8")
+
+
+def write_quick_suite(directory: Path) -> tuple[str, ...]:
+    """The scenes of the quick suite with small images, as scene files below the directory; returns their paths."""
+    folder = directory / QUICK_FOLDER
+    folder.mkdir(parents=True, exist_ok=True)
+    return tuple(str(export_json(small(open_scene(name)), folder)) for name in quick_scenes())
 
 
 def smallest_cover(killers: Sequence[set[str]], costs: Mapping[str, float]) -> tuple[str, ...]:

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from comparisons.matrix import Plan, plan_run, run_plan
+from comparisons.quick_suite import write_quick_suite
 from comparisons.renderers.catalogue import UnknownRendererError, select_renderers
 from comparisons.results import Verdict
 from comparisons.results_directory import only_run_in, with_metrics, write_results
@@ -43,6 +44,7 @@ def run(
     jobs: int | None = None,
     waivers: Path | None = None,
     fresh: Annotated[bool, Parameter(negative="")] = False,
+    quick: Annotated[bool, Parameter(negative="")] = False,
     as_json: AsJson = False,
 ) -> int:
     """Run the conformance matrix: scenes × renderers, each cell judged against the truth.
@@ -68,6 +70,9 @@ def run(
         A JSON file of known failures that do not make the run fail, besides those that raytruth knows itself.
     fresh
         Render every cell again.
+    quick
+        Only the quick suite: few scenes with small images, which still find every fault of the catalogue
+        (`raytruth faults`).
     as_json
         Print the results as one JSON document instead of the table.
     """
@@ -80,7 +85,9 @@ def run(
         raise UsageError(str(error)) from error
     selected |= required
     known_failures = _waivers(waivers)
-    sources = scenes or library_names()
+    if quick and scenes:
+        raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
+    sources = write_quick_suite(out) if quick else scenes or library_names()
     opened = _distinct([open_scene(source) for source in sources])
     with only_run_in(out):
         with progress("Looking for the renderers"):
