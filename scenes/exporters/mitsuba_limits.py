@@ -9,6 +9,7 @@ import numpy as np
 from scenes.camera import OrthographicCamera
 from scenes.lights import PointLight
 from scenes.materials import CheckerboardColor
+from scenes.requirements import Feature, required_features
 from scenes.shapes import Mesh, Sphere, Triangle
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 # Mitsuba keeps coordinates in float32: what lies closer to a plane than half an ulp of them is on it.
 FLOAT32_ROUNDOFF = 2.0**-24
+NO_ABSORPTION = "Mitsuba's direct and path integrators have no absorbing media"
 
 
 def refuses(scene: Scene) -> str | None:
@@ -26,6 +28,8 @@ def refuses(scene: Scene) -> str | None:
     for light in scene.lights:
         if isinstance(light, PointLight) and light.falloff != "inverse_square":
             return "a point light of Mitsuba falls off with the inverse square of the distance and in no other way"
+    if Feature.ABSORPTION in required_features(scene):  # of a medium that no object needs to be made of, too
+        return NO_ABSORPTION
     for name in sorted({shape.material for shape in scene.objects}):
         material = scene.materials[name]
         reason = _refuses_material(scene, material) or _refuses_textures(scene, name, material)
@@ -49,8 +53,7 @@ def _refuses_material(scene: Scene, material: Material) -> str | None:
         "a reflectance of Mitsuba is at most 1": max(_reflectances(material), default=0) > 1,
         "a dielectric of Mitsuba obeys Fresnel's equations and has no constant weights": material.dielectric
         and material.dielectric.reflectance is not None,
-        "Mitsuba's direct and path integrators have no absorbing media": material.dielectric
-        and any(material.dielectric.absorption or ()),
+        NO_ABSORPTION: material.dielectric and any(material.dielectric.absorption or ()),
     }
     return next((reason for reason, holds in reasons.items() if holds), None)
 

@@ -82,6 +82,14 @@ def test_what_mitsuba_can_express_is_not_refused(changes: dict[str, Any]) -> Non
     assert refuses(build(**changes)) is None
 
 
+def test_an_absorbing_medium_that_only_the_camera_is_in_is_refused() -> None:
+    fog = {"dielectric": {"index_of_refraction": 1.0, "absorption": (0.1, 0.2, 0.3)}}
+    scene = build(materials={"m": RED, "fog": fog})
+    inside = scene.model_copy(update={"camera": scene.camera.model_copy(update={"inside": "fog"})})
+    assert refuses(scene) is None
+    assert "absorbing" in (refuses(inside) or "")
+
+
 def test_an_emissive_triangle_seen_from_both_sides_is_refused_and_from_behind_is_turned_around() -> None:
     materials = {"m": LAMP, "mirror": MIRROR}
     mirror_below = BALL | {"center": (0.0, -3.0, 0.0), "material": "mirror"}
