@@ -1,4 +1,4 @@
-"""Faults in the shared source, beside those of tests/meta/planted_faults.py: each one function gone wrong."""
+"""Faults in the shared source, beside those of comparisons/faults: each one function gone wrong."""
 
 from __future__ import annotations
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from comparisons.faults.catalogue import all_faults
 from reference_tracer.ties import UndecidedComparisonError
-from tests.meta import planted_faults as common_faults
 from tests.second_opinion import flat_glass, mirrors, planted_faults, round_glass, shadows, surfaces
 from tests.second_opinion.closed_forms import CLOSED_FORMS
 from tests.second_opinion.truth import agree, certified, with_own_error
@@ -18,34 +18,41 @@ if TYPE_CHECKING:
 
     from tests.second_opinion.case import Case
 
+
+def of_catalogue(name: str) -> tuple[Callable[..., Any], str]:
+    """A fault of the catalogue and the function that it replaces."""
+    ((function, body),) = all_faults()[name].overrides.items()
+    return body, function
+
+
 # Fault, the function that it replaces, and a closed form that shows it.
 PLANTED: list[tuple[Callable[..., Any], str, Callable[[Random], Case]]] = [
-    (common_faults.mirrored_image, "primary_ray", surfaces.lit_triangle),
-    (common_faults.half_pixel_shift, "primary_ray", mirrors.mirror_corridor),
-    (common_faults.horizontal_field_of_view, "camera_frame", surfaces.checkerboard_floor),
-    (common_faults.one_over_r, "attenuation", surfaces.diffuse_sphere),
-    (common_faults.one_over_r, "attenuation", surfaces.lit_triangle),
+    (*of_catalogue("mirrored_image"), surfaces.lit_triangle),
+    (*of_catalogue("half_a_pixel_off"), mirrors.mirror_corridor),
+    (*of_catalogue("horizontal_field_of_view"), surfaces.checkerboard_floor),
+    (*of_catalogue("one_over_distance"), surfaces.diffuse_sphere),
+    (*of_catalogue("one_over_distance"), surfaces.lit_triangle),
     (planted_faults.cosine_squared, "direct_light", surfaces.diffuse_sphere),
     (planted_faults.cosine_squared, "direct_light", surfaces.sphere_in_parallel_projection),
     (planted_faults.no_pi, "diffuse", surfaces.checkerboard_floor),
     (planted_faults.unclamped_attenuation, "attenuation", surfaces.phong_sphere),
     (planted_faults.half_of_the_exponent, "phong", surfaces.phong_sphere),
-    (common_faults.phong_for_blinn, "blinn", surfaces.blinn_sphere),
+    (*of_catalogue("phong_for_blinn"), surfaces.blinn_sphere),
     (planted_faults.parallelogram, "triangle_distance", surfaces.lit_triangle),
     (planted_faults.squares_in_one_floor, "is_even_square", surfaces.checkerboard_floor),
-    (common_faults.no_shadow_rays, "is_shadowed", shadows.umbra_of_a_point_light),
-    (common_faults.no_shadow_rays, "is_shadowed", shadows.shadow_of_the_sun),
+    (*of_catalogue("no_shadow_rays"), shadows.umbra_of_a_point_light),
+    (*of_catalogue("no_shadow_rays"), shadows.shadow_of_the_sun),
     (planted_faults.upper_half_of_the_sky, "background_radiance", mirrors.mirror_sphere),
     (planted_faults.mirrored_behind_the_surface, "mirror_direction", mirrors.mirror_sphere),
-    (common_faults.one_bounce_too_few, "reflected_ray", mirrors.mirror_corridor),
+    (*of_catalogue("reflection_one_percent_too_dark"), mirrors.mirror_corridor),
     (planted_faults.fresnel_without_half, "fresnel_reflectance", round_glass.glass_sphere_on_its_axis),
     (planted_faults.fresnel_without_half, "fresnel_reflectance", flat_glass.glass_slab),
-    (common_faults.schlick, "fresnel_reflectance", flat_glass.glass_slab),
-    (common_faults.schlick, "fresnel_reflectance", round_glass.glass_sphere),
+    (*of_catalogue("schlick"), flat_glass.glass_slab),
+    (*of_catalogue("schlick"), round_glass.glass_sphere),
     (planted_faults.radiance_not_scaled, "split", flat_glass.window_of_snell),
     (planted_faults.radiance_scaled_the_wrong_way, "split", flat_glass.prism_at_the_critical_angle),
-    (common_faults.inverted_index_ratio, "index_ratio", round_glass.glass_sphere),
-    (common_faults.flipped_normal_inside_glass, "surface_at", round_glass.bubble_in_glass),
+    (*of_catalogue("inverted_index_ratio"), round_glass.glass_sphere),
+    (*of_catalogue("every_ray_enters"), round_glass.bubble_in_glass),
     (planted_faults.discriminant_without_sign, "snell_discriminant", flat_glass.prism_at_the_critical_angle),
     (planted_faults.exchanged_constants, "split", flat_glass.slab_of_constant_weights),
     (planted_faults.total_reflection_of_everything, "total_reflection_weight", flat_glass.window_of_constant_weights),

@@ -1,0 +1,53 @@
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+from comparisons import kill_run
+from comparisons.faults.catalogue import all_faults
+from comparisons.faults.variants import all_variants
+from comparisons.kill_matrix import KillCell, SceneKills
+from tests.raytruth.running import refusal, run
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pytest
+
+
+def keep(out: Path, *, survivor: str = "", flagged: str = "") -> None:
+    """As if a run had judged one scene."""
+    cells = [KillCell(name, 0.0 if name == survivor else 9.0) for name in all_faults()]
+    cells += [KillCell(name, 9.0 if name == flagged else 0.0) for name in all_variants()]
+    kill_run._keep(out, "ambient-sphere", SceneKills("ambient-sphere", tuple(cells), 1.0))
+
+
+def test_all_is_well_where_every_fault_is_killed_and_no_variant_flagged(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    keep(tmp_path)
+    status, out, _ = run(capsys, "faults", "ambient-sphere", "--out", str(tmp_path), "--json")
+    document = json.loads(out)
+    assert status == 0
+    assert all(fault["killed"] for fault in document["faults"])
+    assert document["quick"] == ["ambient-sphere"]
+    assert (tmp_path / "faults.html").exists()
+
+
+def test_a_survivor_or_a_false_alarm_makes_the_command_fail(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    survivor, flagged = next(iter(all_faults())), next(iter(all_variants()))
+    keep(tmp_path, survivor=survivor)
+    status, out, _ = run(capsys, "faults", "ambient-sphere", "--out", str(tmp_path))
+    assert status == 1
+    assert f"{survivor}: 0 of 1 scenes" in out
+    keep(tmp_path, flagged=flagged)
+    status, out, _ = run(capsys, "faults", "ambient-sphere", "--out", str(tmp_path))
+    assert status == 1
+    assert f"variant {flagged}: on ambient-sphere" in out
+
+
+def test_bad_usage_is_refused_in_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert "expected 1 or more" in refusal(capsys, "faults", "--jobs", "0", "--out", str(tmp_path))
+    assert "no-such-scene" in refusal(capsys, "faults", "no-such-scene", "--out", str(tmp_path))
+    assert "--quick" in refusal(capsys, "run", "single-sphere", "--quick", "--out", str(tmp_path))
+    assert list(tmp_path.iterdir()) == []
