@@ -1,4 +1,4 @@
-"""Write the kill matrix of a results directory into docs/kill-matrix.md: `python tools/kill_matrix_in_docs.py results`."""
+"""Write the kill matrix of a run into docs/kill-matrix.md: `python tools/kill_matrix_in_docs.py results`."""
 
 from __future__ import annotations
 

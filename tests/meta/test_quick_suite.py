@@ -1,4 +1,4 @@
-"""The suite kills what it says it kills: every fault of the catalogue, by the quick suite alone, and no right renderer."""
+"""The suite kills what it says: every fault of the catalogue, by the quick suite alone, and no right renderer."""
 
 from __future__ import annotations
 
