@@ -77,10 +77,34 @@ def boxes_from_last_to_first(
     return nearest, hit
 
 
-@variant("box_is_missed")
-def every_box_entered(origin: Vector, direction: Vector, low: Vector, high: Vector, end: Scalar) -> bool:
-    """No box is ever skipped: all triangles are tested, as without a tree."""
-    return False
+@variant("nearest_triangle")
+def boxes_behind_a_hit_entered(
+    scene: SceneData, origin: Vector, direction: Vector, left: int, nearest: Scalar, hit: int
+) -> tuple[Scalar, int]:
+    """Boxes are entered although something nearer has been hit already."""
+    spheres = rows_of(scene, SPHERE_MATERIAL)
+    if BOUNDING_VOLUMES:
+        node = 0
+        while node < rows_of(scene, NODE_END):
+            first = integer_of(scene, NODE_FIRST_TRIANGLE, node)
+            low = vector_of(scene, NODE_LOW, node)
+            if box_is_missed(origin, direction, low, vector_of(scene, NODE_HIGH, node), inf):
+                node = integer_of(scene, NODE_END, node)
+            else:
+                for place in range(first, first + integer_of(scene, NODE_TRIANGLES, node)):
+                    triangle = integer_of(scene, NODE_ORDER, place)
+                    distance = distance_to_triangle(scene, origin, direction, left - spheres, triangle)
+                    if distance < nearest:
+                        nearest = distance
+                        hit = spheres + triangle
+                node += 1
+    else:
+        for triangle in range(rows_of(scene, TRIANGLE_MATERIAL)):
+            distance = distance_to_triangle(scene, origin, direction, left - spheres, triangle)
+            if distance < nearest:
+                nearest = distance
+                hit = spheres + triangle
+    return nearest, hit
 
 
 @variant("radiance")
