@@ -36,6 +36,7 @@ NAMED: dict[str, Callable[[Scene], bool]] = {
     "mirror": lambda scene: Feature.MIRRORS in required_features(scene),
     "diffuse and a mirror term": lambda scene: any(m.diffuse and m.mirror for m in used_materials(scene)),
     "scales radiance": lambda scene: scene.convention == "whitted" and Feature.DIELECTRICS in required_features(scene),
+    "outside": lambda scene: any(m.dielectric and m.dielectric.outside for m in used_materials(scene)),
     "gradient": lambda scene: Feature.BACKGROUND_GRADIENT in required_features(scene),
     "absorbing": lambda scene: Feature.ABSORPTION in required_features(scene),
     "area light": lambda scene: Feature.EMISSION in required_features(scene),
