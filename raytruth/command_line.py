@@ -63,6 +63,11 @@ COMMANDS = {
         "Exit status 0 if all faults are killed and no variant is flagged, else 1. What has not changed is taken over. "
         "Examples: `raytruth faults`, `raytruth faults --json --out results`",
     ),
+    "spec": (
+        "raytruth.spec_command:spec",
+        "Show which tests, scenes and faults hold each clause of the specification, and what is missing.",
+        "Exit status 1 if anything is missing. Needs a clone of the repository. Example: `raytruth spec --json`",
+    ),
     "report": (
         "raytruth.report_command:report",
         "Rebuild the report of a results directory from its files alone.",

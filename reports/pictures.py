@@ -11,13 +11,15 @@ import OpenImageIO
 import PIL.Image
 from numpy.typing import NDArray
 
+from comparisons.srgb import srgb_encoded
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 FloatImage = NDArray[np.float32]
 """Linear values, shape (height, width) or (height, width, 3), row 0 on top."""
 
-Colours = NDArray[np.float32]
+Colours = NDArray[np.floating]
 """sRGB-encoded colours in 0..1, shape (height, width, 3)."""
 
 MARK = (1.0, 0.0, 1.0)
@@ -58,7 +60,7 @@ def tone_picture(image: FloatImage, stops: int = 0) -> bytes:
     """A PNG of linear Rec. 709 light, brightened by `stops`, clipped to 0..1, sRGB-encoded; not-a-number is magenta."""
     not_finite = np.asarray(~np.isfinite(image).all(axis=-1))
     wide = np.nan_to_num(image.astype(np.float64))  # float32 may overflow when brightened
-    return _png(_marked(_encoded(np.clip(wide * 2.0**stops, 0, 1).astype(np.float32)), not_finite))
+    return _png(_marked(srgb_encoded(np.clip(wide * 2.0**stops, 0, 1)), not_finite))
 
 
 def signed_difference(render: FloatImage, truth: FloatImage) -> FloatImage:
@@ -128,20 +130,14 @@ def _diverging(values: NDArray[np.floating]) -> Colours:
 
 
 def _viridis(values: NDArray[np.floating]) -> Colours:
-    return _encoded(_mapped(values, LEVELS, "viridis"))  # OpenImageIO gives its own scales as linear light
+    light = _mapped(values, LEVELS, "viridis")  # OpenImageIO gives its own scales as linear light
+    return srgb_encoded(light.astype(np.float64))
 
 
 def _mapped(values: NDArray[np.floating], levels: int, *scale: str | int | Sequence[float]) -> Colours:
     stepped = (np.round(values * levels) / levels).astype(np.float32)
     arguments = scale if len(scale) == 1 else (scale[0], 3, scale[1])
     return _pixels(OpenImageIO.ImageBufAlgo.color_map(OpenImageIO.ImageBuf(stepped[..., None].copy()), 0, *arguments))
-
-
-def _encoded(light: NDArray[np.float32]) -> Colours:
-    """Linear Rec. 709 light, sRGB-encoded."""
-    return _pixels(
-        OpenImageIO.ImageBufAlgo.colorconvert(OpenImageIO.ImageBuf(np.ascontiguousarray(light)), "lin_rec709", "sRGB")
-    )
 
 
 def _pixels(buffer: OpenImageIO.ImageBuf) -> NDArray[np.float32]:

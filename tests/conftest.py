@@ -1,8 +1,13 @@
-"""Profiles for hypothesis: `fast` unless `--hypothesis-profile=deep` is given."""
+"""Profiles for hypothesis: `fast` unless `--hypothesis-profile=deep` is given; and each test names its clauses."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import pytest
 from hypothesis import HealthCheck, settings
+
+from comparisons.clauses import PROMISES, SPECIFICATION, all_clauses
 
 # The same examples on every machine and in every run, so that a change that passes here passes everywhere; a deadline
 # would fail a test because the machine is busy.
@@ -16,3 +21,18 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow],
 )
 settings.load_profile("fast")
+
+ROOT = Path(__file__).parent.parent
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """A test that names no clause, or one that does not exist, ends the run before it begins."""
+    clauses = all_clauses(ROOT)
+    for item in items:
+        named = {clause for mark in item.iter_markers("clause") for clause in mark.args}
+        if not named:
+            raise pytest.UsageError(f'{item.nodeid} names no clause: mark it with @pytest.mark.clause("…").')
+        if unknown := named - clauses:
+            raise pytest.UsageError(
+                f"{item.nodeid} names {min(unknown)}, which is no clause of {SPECIFICATION} or {PROMISES}."
+            )

@@ -14,13 +14,15 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+from comparisons.clauses import PROMISES, SPECIFICATION, all_clauses, clauses_of
 from scenes.loading import load_scene
 from scenes.schema import json_schema
+
+pytestmark = pytest.mark.clause("PRJ-2")
 
 ROOT = Path(__file__).parent.parent
 DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md"))]
 SCENE_FORMAT = (ROOT / "docs" / "scene-format.md").read_text(encoding="utf-8")
-SPECIFICATION = (ROOT / "docs" / "spec.md").read_text(encoding="utf-8")
 
 SCHEMA = json_schema()
 MODELS: dict[str, dict[str, Any]] = {"Scene": SCHEMA, **SCHEMA["$defs"]}
@@ -31,7 +33,6 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 LESSER = {"python-flint"}
 
 ROW = re.compile(r"^\| `(\w+)` \| .+ \| (.+) \| .*\|$", re.MULTILINE)
-CLAUSE = re.compile(r"^- \*\*([A-Z]+-\d+)\*\*", re.MULTILINE)
 
 
 def section(title: str) -> str:
@@ -43,6 +44,7 @@ def section(title: str) -> str:
     raise AssertionError(f"docs/scene-format.md has no section on {title}")
 
 
+@pytest.mark.clause("SCN-4")
 @pytest.mark.parametrize("name", MODELS)
 def test_the_scene_format_tells_every_key_and_its_default(name: str) -> None:
     told = dict(ROW.findall(section(name)))
@@ -61,8 +63,8 @@ def test_the_example_of_the_scene_format_is_a_scene(tmp_path: Path) -> None:
     assert load_scene(path).name == "example"
 
 
-def test_each_clause_of_the_specification_has_one_place_in_order() -> None:
-    clauses = CLAUSE.findall(SPECIFICATION)
+def test_each_clause_has_one_place_in_order() -> None:
+    clauses = (*clauses_of(ROOT, SPECIFICATION), *clauses_of(ROOT, PROMISES))
     assert [clause for clause, times in Counter(clauses).items() if times > 1] == []
     numbers: dict[str, list[int]] = {}
     for prefix, number in (clause.split("-") for clause in clauses):
@@ -71,12 +73,12 @@ def test_each_clause_of_the_specification_has_one_place_in_order() -> None:
 
 
 def test_whatever_refers_to_a_clause_or_chapter_refers_to_one_that_exists() -> None:
-    clauses = set(CLAUSE.findall(SPECIFICATION))
+    clauses = all_clauses(ROOT)
     chapters = {clause.split("-")[0] for clause in clauses}
     sources = [path.read_text(encoding="utf-8") for path in (ROOT / "reference_tracer").glob("*.py")]
     named_by_sources = {name for text in sources for name in re.findall(r"docs/spec\.md, ([A-Z]+)\b", text)}
     assert named_by_sources
-    assert named_by_sources <= chapters
+    assert named_by_sources <= {clause.split("-")[0] for clause in clauses_of(ROOT, SPECIFICATION)}
     mentions = re.findall(
         rf"\b(?:{'|'.join(chapters)})-\d+\b", "".join(path.read_text(encoding="utf-8") for path in DOCUMENTS)
     )
@@ -91,6 +93,7 @@ def test_every_link_to_a_file_leads_somewhere(path: Path) -> None:
     assert [link for link in local if not (path.parent / link).exists()] == []
 
 
+@pytest.mark.clause("PRJ-4")
 def test_the_dependencies_are_told_and_constrained() -> None:
     stated = {Requirement(line).name for line in [*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["test"]]}
     assert set(re.findall(r"^\| ([a-z][a-z0-9-]+) \| (?!licence)", DEPENDENCIES, flags=re.MULTILINE)) == stated
@@ -98,6 +101,7 @@ def test_the_dependencies_are_told_and_constrained() -> None:
     assert stated <= {canonicalize_name(line.partition("==")[0]) for line in lines}
 
 
+@pytest.mark.clause("PRJ-4")
 def test_no_dependency_brings_a_licence_that_ours_cannot_carry() -> None:
     waiting = [Requirement(line) for line in PROJECT["dependencies"]]
     seen: set[str] = set()

@@ -15,6 +15,8 @@ import pytest
 
 from scenes.library import LIBRARY_FOLDER, library_names
 
+pytestmark = pytest.mark.clause("PRJ-3")
+
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("scenes", "reference_tracer", "comparisons", "reports", "raytruth")
 PROJECT_FILES = ("pyproject.toml", "README.md", "LICENSE")

@@ -11,15 +11,19 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.clause("PRJ-1")
+
 ROOT = Path(__file__).parent.parent
 
-# What each folder may import of ours (README.md, "Folders"). A report reads records and images that others wrote.
+# What each folder may import of ours (README.md, "Folders"). A report reads records and images that others wrote, and
+# encodes colours as they do.
 RECORDS = {
     "comparisons.results",
     "comparisons.kill_results",
     "comparisons.images",
     "comparisons.pixel_evidence",
     "comparisons.renderer.Image",
+    "comparisons.srgb",
     "reference_tracer.explanation_record",
 }
 MAY_IMPORT = {
@@ -127,6 +131,7 @@ def test_the_folders_of_tests_are_those_of_the_source() -> None:
     assert folders - TESTS_BY_PURPOSE == set(MAY_IMPORT)
 
 
+@pytest.mark.clause("PRJ-4")
 def test_constraints_are_names_and_versions_and_nothing_else() -> None:
     lines = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
     assert lines

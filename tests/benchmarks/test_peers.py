@@ -8,6 +8,8 @@ import pytest
 from benchmarks import peers
 from benchmarks.peer_scenes import MIRROR_DEPTH, diffuse_scene, mirror_scene
 
+pytestmark = pytest.mark.clause("BEN-1")
+
 # So few that the test is quick; no time is asserted.
 SIZE = 12
 ROUNDS = 3
@@ -26,6 +28,7 @@ class _Absent:
         """Renders nowhere."""
 
 
+@pytest.mark.clause("CMD-3")
 def test_the_document_has_the_keys_that_other_programs_rely_on(printed: str) -> None:
     document = json.loads(printed)
     assert list(document)[:2] == ["machine", "ratios"]

@@ -2,12 +2,12 @@ from __future__ import annotations
 
 import json
 import math
-from typing import TYPE_CHECKING
+
+import pytest
 
 from benchmarks import truth_cost
 
-if TYPE_CHECKING:
-    import pytest
+pytestmark = pytest.mark.clause("BEN-1")
 
 
 def test_the_document_has_each_scene_beside_both_arithmetics(

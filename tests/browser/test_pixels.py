@@ -21,6 +21,8 @@ from tests.reports.sample_results import (
     write_sample,
 )
 
+pytestmark = pytest.mark.clause("REP-3")
+
 UNJUDGED_PIXEL = (3, 3)
 NAN_PIXEL = (41, 40)
 PLAIN_PIXEL = (50, 20)
@@ -234,6 +236,7 @@ def test_a_tap_on_a_narrow_screen_shows_the_numbers_in_sight(visit: Any) -> None
     assert region.evaluate("r => r.scrollWidth <= r.clientWidth")  # all three channels
 
 
+@pytest.mark.clause("REP-4")
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_the_numbers_are_legible_in_both_schemes(visit: Any, scheme: str) -> None:
     page = visit(color_scheme=scheme).page
@@ -274,6 +277,7 @@ def test_values_of_another_report_are_not_shown(visit: Any, tmp_path: Path, text
     expect(cell.get_by_role("status")).to_contain_text("belong to another report")
 
 
+@pytest.mark.clause("REP-2")
 def test_no_element_of_the_page_can_load_a_script_by_itself(visit: Any, tmp_path: Path) -> None:
     path = own_report(tmp_path)
     (path.parent / "pixels/strange.js").write_text("globalThis.strange = true;", encoding="utf-8")
@@ -284,6 +288,7 @@ def test_no_element_of_the_page_can_load_a_script_by_itself(visit: Any, tmp_path
     assert any("Content Security Policy" in complaint for complaint in opened.complaints)
 
 
+@pytest.mark.clause("REP-2")
 def test_hostile_names_of_a_scene_stay_words_of_the_command(visit: Any, tmp_path: Path) -> None:
     directory = write_sample(tmp_path / "results")
     document = json.loads((directory / "results.json").read_text(encoding="utf-8"))

@@ -12,6 +12,8 @@ from reports.wording import WORDINGS
 from tests.browser.contrasts import CONTRASTS, WCAG_AA
 from tests.reports.sample_results import ODD_NAME, SIDE, sample_document
 
+pytestmark = pytest.mark.clause("REP-4")
+
 DECODED = """async () => {
   const decoded = [];
   for (const stored of document.querySelectorAll("svg.store image")) {
@@ -35,6 +37,7 @@ VERDICTS_BY_VISIBILITY = """(all) => {
 }"""
 
 
+@pytest.mark.clause("REP-1")
 def test_the_page_asks_for_nothing_and_complains_of_nothing(visit: Any, report: Path) -> None:
     opened = visit()
     for summary in opened.page.locator("summary").all():

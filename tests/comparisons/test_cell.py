@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("VER-3", "VER-4", "VER-9", "VER-10", "REN-1")
+
 PLACE = CellPlace("small", "pretender", "whitted", key="abc", source="small", version="pretender 1")
 GLASS = {"white": {"dielectric": {"index_of_refraction": 1.5}}}
 SIZE: dict[str, Any] = {"width": 6, "height": 4, "extent": 3.0}

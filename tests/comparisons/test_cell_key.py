@@ -13,6 +13,8 @@ from tests.reference_tracer.small_scenes import small_scene
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("RES-3")
+
 FILES = {
     "comparisons/renderers/one.py": """
 from comparisons.renderers import one_job

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import OpenImageIO
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
+
+pytestmark = pytest.mark.clause("RES-1")
 
 
 def test_the_file_has_its_channels_by_name(tmp_path: Path) -> None:

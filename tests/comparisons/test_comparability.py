@@ -2,6 +2,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 from comparisons.comparability import depth_or_reason
 from comparisons.renderer import Integrator
 from comparisons.renderers.closed_form import ClosedFormRenderer
@@ -10,6 +12,8 @@ from comparisons.renderers.reference import ReferenceTracer
 from scenes.library import library_names, open_scene
 from tests.comparisons.pretending import Pretender
 from tests.scenes.exporter_scenes import BALL, GLASS, MIRROR, POINT, RED, build
+
+pytestmark = pytest.mark.clause("VER-8")
 
 DIRECT, PATH, FIRST_HITS, LIGHT_TRACER = mitsuba_llvm().integrators
 GREY = {"color": (0.5, 0.5, 0.5)}

@@ -19,6 +19,8 @@ from tests.comparisons.drawn_triangles import (
 )
 from tests.scenes.exporter_scenes import build
 
+pytestmark = pytest.mark.clause("VER-2")
+
 SNAPPING = 2.0**-9
 PROJECTIONS = pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC], ids=["perspective", "orthographic"])
 

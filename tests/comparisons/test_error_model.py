@@ -8,6 +8,8 @@ from comparisons.error_model import ErrorModel, Rasterisation, RayOffset
 from comparisons.renderers.catalogue import all_renderers
 from scenes.library import library_names, open_scene
 
+pytestmark = pytest.mark.clause("VER-1")
+
 CLAUSES = {
     RayOffset(): "on the surface; the surface cannot be hit again there",
     RayOffset(excludes_surface=False): "on the surface; the surface is tested as all others are",

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from scenes.scene import Scene
 
-pytestmark = pytest.mark.usefixtures("keep_precision")
+pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
 WHITE = {"emission": {"radiance": (1.0, 1.0, 1.0)}}
 
 
@@ -54,6 +54,7 @@ def test_a_pixel_that_nothing_is_in_doubt_of_has_one_outcome_as_wide_as_its_roun
     assert not merged
 
 
+@pytest.mark.clause("NUM-3")
 def test_a_tangent_ray_hits_and_misses(follow: Any) -> None:
     pixel = evaluator(follow, tangents(1))
     boxes = pixel.colors(0, 0)[0]
@@ -130,6 +131,7 @@ def test_no_pixel_has_more_outcomes_than_the_limit_and_every_one_is_finite(follo
     assert judged > 0
 
 
+@pytest.mark.clause("CAM-5")
 def test_the_camera_starts_in_its_medium(follow: Any) -> None:
     # Seen from inside glass of index 2, a world of radiance 1 outside has radiance 4 (n²) where nothing is reflected:
     # with R = (1/3)² at normal incidence, 4·(1-R) and then what is reflected inside, again and again.

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from scenes.scene import Scene
 
-pytestmark = pytest.mark.usefixtures("keep_precision")
+pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
 
 
 @pytest.fixture(scope="module")
@@ -151,6 +151,7 @@ def tangent(*objects: dict[str, Any], **changes: Any) -> Scene:
     )
 
 
+@pytest.mark.clause("NUM-3")
 def test_a_pixel_on_an_edge_has_an_outcome_for_each_side() -> None:
     scene = tangent(sphere("white"))
     feasible = feasible_set(scene, MODELS["float32"])
@@ -164,6 +165,7 @@ def test_a_pixel_on_an_edge_has_an_outcome_for_each_side() -> None:
     assert (np.abs(high - 1) < rounding).all()
 
 
+@pytest.mark.clause("VER-4")
 def test_a_pixel_with_too_many_outcomes_is_not_judged_and_its_neighbour_is() -> None:
     # Seven spheres touch the ray at x = 1, each behind the next; each may be hit or missed. That at x = -1 misses all.
     spheres = [sphere("white", (1.0 - 0.5, 0.0, 1.5 * k - 6.0), 0.5) for k in range(7)]

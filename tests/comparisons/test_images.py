@@ -12,6 +12,8 @@ from hypothesis.extra import numpy as arrays
 from comparisons.images import ImageError, read_image, write_image
 from scenes.camera import LARGEST_SIDE
 
+pytestmark = pytest.mark.clause("OUT-1", "RES-1", "RES-2")
+
 SHAPES = st.tuples(st.integers(1, 9), st.integers(1, 9)) | st.tuples(st.integers(1, 9), st.integers(1, 9), st.just(3))
 FLOATS = st.floats(width=32, allow_nan=True, allow_infinity=True)
 
@@ -49,6 +51,7 @@ def test_arrays_of_another_shape_or_type_are_refused_before_anything_is_written(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.clause("OUT-2")
 def test_a_write_that_fails_says_so_and_leaves_the_old_file(tmp_path):
     with pytest.raises(ImageError, match="could not be written"):
         write_image(tmp_path / "missing" / "image.exr", np.zeros((2, 2), dtype=np.float32))

@@ -9,6 +9,8 @@ import pytest
 
 from comparisons.interruption import INTERRUPTED, at_work, interruption_held_back, start_worker
 
+pytestmark = pytest.mark.clause("RES-5")
+
 
 def test_an_interruption_while_processes_start_is_heard_of_afterwards() -> None:
     reached = False

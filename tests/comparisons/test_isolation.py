@@ -13,6 +13,8 @@ import pytest
 from comparisons.isolation import LOG_FILE, run_isolated
 from comparisons.renderer import RendererError
 
+pytestmark = pytest.mark.clause("REN-1")
+
 GENEROUS_SECONDS = 60.0
 MEMORY = 256 << 20  # a Python interpreter needs some 30 MB of address space
 

@@ -26,6 +26,8 @@ from tests.comparisons.boxes import boxes, hits
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+pytestmark = pytest.mark.clause("VER-3")
+
 
 def row(*values: float | tuple[float, float, float]) -> NDArray[np.float32]:
     """An image of one row; a single number is grey."""
@@ -117,6 +119,7 @@ def test_an_image_passes_if_each_judged_pixel_is_feasible() -> None:
     assert verdict_of(judgement) == (Verdict.PASS, reason)
 
 
+@pytest.mark.clause("VER-4")
 def test_a_pixel_whose_box_holds_several_outcomes_is_counted_and_told() -> None:
     feasible = replace(boxes(*[[(0.0, 1.0)]] * 3), merged=np.array([[False, True, True]]))
     image = row(0.5, 0.5, 0.5)

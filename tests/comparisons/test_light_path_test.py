@@ -12,6 +12,8 @@ from comparisons.stochastic import SIGNIFICANCE
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+pytestmark = pytest.mark.clause("VER-6")
+
 PATHS = 10_000
 TESTS = 3  # one pixel, three channels
 

@@ -9,6 +9,8 @@ from comparisons import lobe_bias
 from comparisons.lobe_bias import BIAS_SIZES, LARGEST_STAKE, biased_images, lobe_bias_p_value
 from tests.comparisons.lobe_images import directly_seen, draw_batch_means, interval_of, one_dielectric, truth_of
 
+pytestmark = pytest.mark.clause("VER-6")
+
 BATCHES, SAMPLES = 32, 16
 
 
@@ -74,6 +76,7 @@ def test_no_batch_however_bad_takes_more_than_the_largest_stake():
         assert 1 - LARGEST_STAKE <= value < math.inf
 
 
+@pytest.mark.clause("VER-7")
 @pytest.mark.parametrize("bias", [0.02, -0.02])
 def test_a_bias_in_lobes_of_alternating_contrast_is_seen(bias):
     rng = np.random.default_rng(11)

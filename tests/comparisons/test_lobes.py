@@ -7,6 +7,8 @@ from scenes.library import open_scene
 from tests.comparisons.lobe_images import truth_of
 from tests.meta.lobe_biases import GLASS_SCENES, bound_of, lobes_of
 
+pytestmark = pytest.mark.clause("VER-6")
+
 
 @pytest.mark.parametrize("name", GLASS_SCENES)
 def test_the_expectation_over_the_paths_is_the_truth(name):

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from comparisons.feasible_set import FeasibleSet
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("RES-3")
+
 FIRST_HITS = (Integrator("first-hits", "E", gives="first hits"),)
 BALL = {"shape": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}
 SCENE: dict[str, Any] = {
@@ -81,6 +83,7 @@ def test_a_scene_is_rendered_judged_and_its_truth_written(pretender: Pretender, 
     assert pretender.calls == 1
 
 
+@pytest.mark.clause("REN-5")
 def test_what_is_not_installed_is_unavailable_with_how_to_install_it(pretender: Pretender, tmp_path: Path) -> None:
     pretender.installed = None
     planned = plan([scene_file(tmp_path)], tmp_path / "out")
@@ -90,6 +93,7 @@ def test_what_is_not_installed_is_unavailable_with_how_to_install_it(pretender: 
     assert "cannot be installed" in cell.reason
 
 
+@pytest.mark.clause("VER-8")
 def test_what_cannot_be_compared_is_settled_with_the_reason(pretender: Pretender, tmp_path: Path) -> None:
     pretender.refusal = "it has no taste for spheres"
     planned = plan([scene_file(tmp_path)], tmp_path / "out")

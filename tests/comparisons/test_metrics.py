@@ -10,6 +10,8 @@ from comparisons import metrics as metrics_module
 from comparisons.metrics import compute_metrics, compute_metrics_batch
 from comparisons.results import Metrics
 
+pytestmark = pytest.mark.clause("VER-11")
+
 
 @pytest.fixture
 def without_pictures(monkeypatch):

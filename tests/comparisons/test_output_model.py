@@ -15,6 +15,8 @@ from tests.reproduction import note_case
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+pytestmark = pytest.mark.clause("VER-5")
+
 FORMATS = get_args(get_type_hints(OutputModel)["numbers"])
 MODELS = [
     OutputModel(numbers, transfer, rounding, clipped)

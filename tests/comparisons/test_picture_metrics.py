@@ -5,6 +5,8 @@ from comparisons import picture_metrics as module
 from comparisons.picture_metrics import picture_metrics
 from comparisons.picture_metrics_worker import colour, displayable, flip, largest_delta_e, srgb, ssim
 
+pytestmark = pytest.mark.clause("VER-11")
+
 # Stands in for the worker: measures every pair alike, and does something else at pair 1.
 WORKER = """
 import json, os, sys

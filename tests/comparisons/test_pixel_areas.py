@@ -13,6 +13,8 @@ from tests.reference_tracer.small_scenes import library_scene, small_scene, squa
 if TYPE_CHECKING:
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("VER-2")
+
 LAMP = {"emission": {"radiance": (1.0, 0.5, 0.25)}}
 
 

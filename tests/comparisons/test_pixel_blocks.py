@@ -1,8 +1,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from comparisons.pixel_blocks import block_sizes, block_sums, spread
+
+pytestmark = pytest.mark.clause("VER-6")
 
 
 def test_blocks_double_until_one_holds_the_whole_image() -> None:

@@ -16,6 +16,8 @@ from comparisons.pixel_evidence import (
     write_pixel_evidence,
 )
 
+pytestmark = pytest.mark.clause("RES-1")
+
 finite = st.floats(-1e30, 1e30)
 widths = st.one_of(st.just(0.0), st.floats(0, 1e-7), st.floats(0, 1e30))
 

@@ -15,6 +15,8 @@ from tests.scenes.exporter_scenes import BOARD, GLASS, LAMP, MIRROR, POINT, RED
 if TYPE_CHECKING:
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("VER-6")
+
 GREY = {"background": {"color": (0.25, 0.5, 0.125)}}
 
 

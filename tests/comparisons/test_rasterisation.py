@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 MODEL = ErrorModel("", 24, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=24))
 PROJECTIONS = pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC], ids=["perspective", "orthographic"])
-pytestmark = pytest.mark.usefixtures("keep_precision")
+pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
 
 
 @pytest.fixture
@@ -70,6 +70,7 @@ def renumbered(hits: FirstHits) -> FirstHits:
     return replace(hits, primitive=np.where(hits.primitive < 0, -1, 15 - hits.primitive))
 
 
+@pytest.mark.clause("VER-3")
 @PROJECTIONS
 @pytest.mark.parametrize("fault", [flipped, farther, renumbered])
 def test_a_fault_fails(projection: dict[str, Any], fault: Any) -> None:
@@ -77,6 +78,7 @@ def test_a_fault_fails(projection: dict[str, Any], fault: Any) -> None:
     assert judge_first_hits(fault(drawn(scene)), feasible_set(scene, MODEL)).failing > 0
 
 
+@pytest.mark.clause("VER-3")
 @PROJECTIONS
 def test_a_coarser_grid_than_declared_fails(projection: dict[str, Any]) -> None:
     scene = triangle_scene(2, projection)
@@ -87,6 +89,7 @@ def test_a_coarser_grid_than_declared_fails(projection: dict[str, Any]) -> None:
     assert judge_first_hits(drawn(scene, subpixel_bits=3), feasible_set(scene, coarse)).primitive_mismatches == 0
 
 
+@pytest.mark.clause("VER-3")
 def test_one_wrong_pixel_inside_a_triangle_fails() -> None:
     scene = triangle_scene(3, PERSPECTIVE)
     hits, feasible = drawn(scene), feasible_set(scene, MODEL)

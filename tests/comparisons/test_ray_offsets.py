@@ -34,7 +34,7 @@ SHORTENING = 2.0**-10
 SMALLEST_COSINE = 0.01
 # The precision is the same in all examples, so that it does not matter that the fixture runs once for all of them.
 with_fixture = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
-pytestmark = pytest.mark.usefixtures("keep_precision")
+pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
 
 
 @pytest.fixture

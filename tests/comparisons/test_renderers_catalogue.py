@@ -2,6 +2,8 @@ import pytest
 
 from comparisons.renderers.catalogue import UnknownRendererError, all_renderers, select_renderers
 
+pytestmark = pytest.mark.clause("REN-5")
+
 
 def test_every_renderer_stands_under_its_name() -> None:
     assert {"mitsuba", "mitsuba-llvm", "povray", "closed_form", "raytruth"} <= all_renderers().keys()

@@ -7,6 +7,8 @@ from comparisons.renderers.closed_form_geometry import intersect_sphere, interse
 from comparisons.renderers.closed_form_shading import surface_radiance
 from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("REN-6")
+
 # A sphere of radius 1 around the origin, seen from (0, 0, 5): the ray along -z hits (0, 0, 1) at distance 4.
 SPHERE = {"shape": "sphere", "center": (0.0, 0.0, 0.0), "radius": 1.0, "material": "m"}
 TRIANGLE = {"shape": "triangle", "vertices": ((-1.0, -1.0, 1.0), (1.0, -1.0, 1.0), (0.0, 2.0, 1.0)), "material": "m"}

@@ -1,9 +1,12 @@
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from comparisons.renderer import Rays
 from comparisons.renderers.closed_form_geometry import intersect_sphere, intersect_triangle
+
+pytestmark = pytest.mark.clause("REN-6")
 
 COORDINATES = st.tuples(*[st.floats(-4, 4)] * 3)
 DIRECTIONS = COORDINATES.filter(lambda vector: np.linalg.norm(vector) > 0.1)

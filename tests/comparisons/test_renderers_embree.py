@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
     from comparisons.results import Cell
 
+pytestmark = pytest.mark.clause("REN-4")
+
 # Set where every reference must be there (.ci/run): a missing one then fails its tests instead of leaving them out.
 REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))
 RENDERERS = [embree(), embree_robust()]

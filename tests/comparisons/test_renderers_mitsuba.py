@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("REN-4")
+
 # design.md asks for this on deterministic scenes with diffuse surfaces and single lights.
 DIFFUSE_BOUND = 2e-5
 

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from comparisons.results import Judgement
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("REN-4")
+
 # Set where every reference must be there (.ci/run): a missing one then fails its tests instead of leaving them out.
 REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))
 needs_povray = pytest.mark.skipif(PovRay().version() is None and not REQUIRE_ALL, reason="POV-Ray is not installed")

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from comparisons.renderer import Rendering
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("REN-4")
+
 SCENE = "facing-mirrors-depth-2"  # one for both tests, since each scene takes seconds to compile
 
 

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from comparisons.cell import CellPlace, Evidence, run_cell
+from comparisons.cell import CellPlace, run_cell
 from comparisons.comparability import depth_or_reason
 from comparisons.feasible_set import feasible_set
+from comparisons.image_judgement import Evidence
 from comparisons.renderer import Rays, RendererError
 from comparisons.renderers import vtk as adapter
 from comparisons.renderers.vtk import Vtk
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
     from scenes.scene import Scene
 
     Arrays = dict[str, NDArray[Any]]
+
+pytestmark = pytest.mark.clause("REN-4")
 
 # Set where every reference must be there (.ci/run): a missing one then fails its tests instead of leaving them out.
 REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))

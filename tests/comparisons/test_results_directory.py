@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("RES-1")
+
 
 def cell(scene: str, renderer: str = "pretender", verdict: Verdict = Verdict.PASS, **more: Any) -> Cell:
     return Cell(scene=scene, renderer=renderer, integrator="whitted", verdict=verdict, reason="", command="", **more)
@@ -76,6 +78,7 @@ def test_what_is_no_number_survives(tmp_path: Path) -> None:
     json.loads((tmp_path / RESULTS_FILE).read_text(), parse_constant=pytest.fail)
 
 
+@pytest.mark.clause("RES-4")
 def test_results_of_partial_runs_merge(tmp_path: Path) -> None:
     written(tmp_path, [cell("a"), cell("c")], [scene("a", "Old."), scene("c")], installed="pretender 1")
     written(
@@ -94,6 +97,7 @@ def test_results_of_partial_runs_merge(tmp_path: Path) -> None:
     assert [r.version for r in results.renderers] == ["pretender 2"]
 
 
+@pytest.mark.clause("RES-4")
 def test_cells_of_other_renderers_stay(tmp_path: Path) -> None:
     written(tmp_path, [cell("a", "one"), cell("a", "two")], [scene("a")])
     written(tmp_path, [cell("a", "two", Verdict.FAIL)], [scene("a")])
@@ -111,6 +115,7 @@ def test_an_earlier_file_that_is_broken_or_of_another_version_is_replaced(tmp_pa
         assert [c.scene for c in read(tmp_path).cells] == ["b"], text[:30]
 
 
+@pytest.mark.clause("RES-2")
 def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "new" / "file.json"
     write_whole(path, "whole")

@@ -20,7 +20,7 @@ from tests.reference_tracer.kernels import kept_precision
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-pytestmark = pytest.mark.usefixtures("keep_precision")
+pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
 
 
 @pytest.fixture

@@ -17,6 +17,8 @@ from tests.scenes.exporter_scenes import GLASS, MIRROR, POINT, build
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("VER-6")
+
 
 @pytest.mark.parametrize(
     ("changes", "known"),

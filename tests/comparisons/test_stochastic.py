@@ -10,6 +10,8 @@ from comparisons import stochastic
 from comparisons.stochastic import SIGNIFICANCE, relative_entropy
 from tests.comparisons.lobe_images import directly_seen, draw_batch_means, interval_of, one_dielectric
 
+pytestmark = pytest.mark.clause("VER-6")
+
 
 def constant(value, height=4, width=5):
     return np.full((height, width, 3), float(value))

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 TESTS = {"moeller-trumbore": moeller_trumbore_distance, "pluecker": pluecker_distance}
-pytestmark = pytest.mark.usefixtures("keep_precision")
+pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
 
 
 @pytest.fixture

@@ -21,6 +21,8 @@ from reference_tracer.rendering import first_hits, prepare, primary_rays
 from tests.comparisons.drawn_triangles import ORTHOGRAPHIC, PERSPECTIVE, triangle_scene
 from tests.scenes.exporter_scenes import FLOOR, build
 
+pytestmark = pytest.mark.clause("VER-2")
+
 PROJECTIONS = pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC], ids=["perspective", "orthographic"])
 
 

@@ -12,6 +12,8 @@ from scenes.library import library_names
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("VER-13")
+
 WAIVER: dict[str, Any] = {
     "renderer": "povray",
     "version": "POV-Ray 3.7.*",

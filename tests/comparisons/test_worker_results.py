@@ -11,6 +11,8 @@ from comparisons.worker_results import read_arrays
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("REN-1")
+
 
 def test_arrays_are_read_whole(tmp_path: Path) -> None:
     np.savez(tmp_path / "result.npz", image=np.ones((2, 3)), note=np.array("x"))

@@ -49,6 +49,7 @@ def parameters_of(name: str) -> tuple[float, ...]:
     return FAMILIES[name].parameters
 
 
+@pytest.mark.clause("NUM-2", "NUM-3", "VER-2")
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize(("name", "parameter"), MEMBERS)
 def test_every_pixel_is_finite_and_lies_in_its_feasible_set(name: str, parameter: float, seed: int) -> None:
@@ -59,6 +60,7 @@ def test_every_pixel_is_finite_and_lies_in_its_feasible_set(name: str, parameter
     assert np.argwhere(distances > 1).tolist() == []
 
 
+@pytest.mark.clause("VER-4")
 def test_hardly_any_pixel_is_undecided_where_there_is_no_tie() -> None:
     unjudged: dict[tuple[str, float, int], int] = {}
     pixels = 0
@@ -74,6 +76,7 @@ def test_hardly_any_pixel_is_undecided_where_there_is_no_tie() -> None:
     assert sum(unjudged.values()) < 0.001 * pixels, {member: count for member, count in unjudged.items() if count}
 
 
+@pytest.mark.clause("SPH-2")
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("parameter", parameters_of("tangent"))
 def test_exactly_tangent_rays_hit(parameter: float, seed: int) -> None:
@@ -84,6 +87,7 @@ def test_exactly_tangent_rays_hit(parameter: float, seed: int) -> None:
     assert hit.sum() == (81 if parameter <= 0 else 69)
 
 
+@pytest.mark.clause("TRAV-6")
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("parameter", parameters_of("coplanar"))
 def test_of_two_squares_in_one_place_one_is_seen_and_the_nearer_one_if_there_is_one(
@@ -99,18 +103,21 @@ def test_of_two_squares_in_one_place_one_is_seen_and_the_nearer_one_if_there_is_
     assert (second if parameter > 0 else first)[both].all() or parameter == 0
 
 
+@pytest.mark.clause("TRAV-3")
 @pytest.mark.parametrize("seed", SEEDS)
 def test_of_two_equal_spheres_the_first_is_seen(seed: int) -> None:
     _, primitives = first_hits(prepare(family("coincident-spheres", 0.0, seed), FLOAT))
     assert set(np.unique(primitives).tolist()) == {-1, 0}
 
 
+@pytest.mark.clause("TRI-1")
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("parameter", parameters_of("fan"))
 def test_no_ray_passes_between_triangles_that_share_an_edge(parameter: float, seed: int) -> None:
     assert (image_of("fan", parameter, seed) == [0.9, 0.7, 0.3]).all()
 
 
+@pytest.mark.clause("SHAD-5")
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("name", ["light-inside-sphere", "light-inside-tetrahedron"])
 def test_no_light_leaks_out_of_a_closed_surface(name: str, seed: int) -> None:
@@ -118,6 +125,7 @@ def test_no_light_leaks_out_of_a_closed_surface(name: str, seed: int) -> None:
     assert set(lit.values()) == {0}, lit
 
 
+@pytest.mark.clause("CAM-6", "SPH-3")
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("parameter", parameters_of("camera-near-surface"))
 def test_a_camera_on_or_in_a_surface_sees_its_far_side_and_one_outside_its_near_side(
@@ -127,6 +135,7 @@ def test_a_camera_on_or_in_a_surface_sees_its_far_side_and_one_outside_its_near_
     assert (image > 0).all() if parameter <= 0 else not image.any()
 
 
+@pytest.mark.clause("SHAD-5")
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("parameter", parameters_of("light-near-surface"))
 def test_a_light_inside_a_surface_lights_nothing_and_one_outside_the_wall(parameter: float, seed: int) -> None:
@@ -138,6 +147,7 @@ def test_a_light_inside_a_surface_lights_nothing_and_one_outside_the_wall(parame
         assert lit.sum() >= 0.4 * lit.size
 
 
+@pytest.mark.clause("REFR-8")
 @pytest.mark.parametrize("ulps", parameters_of("critical-angle"))
 def test_nothing_jumps_at_the_critical_angle(ulps: float) -> None:
     image = image_of("critical-angle", ulps, 0)
@@ -151,6 +161,7 @@ def test_nothing_jumps_at_the_critical_angle(ulps: float) -> None:
     assert transmitted < 1e-6
 
 
+@pytest.mark.clause("REFR-8")
 @pytest.mark.parametrize("seed", SEEDS)
 def test_glass_of_index_1_shows_the_sky_behind_it(seed: int) -> None:
     scene = family("index-ratio", 1.0, seed)
@@ -161,6 +172,7 @@ def test_glass_of_index_1_shows_the_sky_behind_it(seed: int) -> None:
     assert np.abs(image_of("index-ratio", 1.0, seed) - sky).max() <= 2.0**-48
 
 
+@pytest.mark.clause("TREE-3")
 @pytest.mark.parametrize("seed", SEEDS)
 def test_every_further_bounce_in_a_corridor_of_mirrors_adds_light(seed: int) -> None:
     shallow, middle, deep = (image_of("mirror-corridor", depth, seed) for depth in parameters_of("mirror-corridor"))

@@ -15,6 +15,7 @@ from tests.properties.optical_strategies import MOST_ULPS, SMALLEST_SUBNORMAL, m
 RATIOS = [1 / 1.5, 0.6, 0.8, 1 / 1.33, 1 / 2.42, 1e-3, 1.0 - 1e-6, 1.0 - 2.0**-53]
 
 
+@pytest.mark.clause("REFR-2", "REFR-8")
 @pytest.mark.parametrize("ratio", RATIOS, ids=float.hex)
 def test_within_8_ulp_of_the_critical_angle_a_wrong_decision_weighs_next_to_nothing(ratio: float) -> None:
     """Exhaustive over the 17 floats around the critical cosine."""
@@ -45,6 +46,7 @@ WORST_REFLECTANCES = [
 ]
 
 
+@pytest.mark.clause("REFR-4")
 @pytest.mark.parametrize(("cosine", "ratio"), WORST_REFLECTANCES)
 def test_a_reflectance_into_the_denser_medium_loses_no_more_than_its_roundings(cosine: str, ratio: str) -> None:
     c, eta = float.fromhex(cosine), float.fromhex(ratio)
@@ -58,12 +60,14 @@ def test_a_reflectance_into_the_denser_medium_loses_no_more_than_its_roundings(c
         assert abs(computed - exact) <= 52 * mpmath.mpf(2) ** -53 * exact
 
 
+@pytest.mark.clause("REFR-4")
 @pytest.mark.parametrize("cosine", [0.0, -0.0, SMALLEST_SUBNORMAL, 1e-200, 1e-162])
 @pytest.mark.parametrize("ratio", [1.0, 1.5, 1e3])
 def test_grazing_light_is_reflected_even_where_the_cosines_square_underflows(cosine: float, ratio: float) -> None:
     assert fresnel_reflectance(cosine, sqrt(snell_discriminant(cosine, ratio)), ratio) == 1.0
 
 
+@pytest.mark.clause("REFR-8")
 def test_equal_indices_reflect_nothing_down_to_the_smallest_cosine_whose_square_is_a_number() -> None:
     for cosine in (1.0, 1e-8, 1e-100, 1e-153, 2.3e-162):
         assert fresnel_reflectance(cosine, sqrt(snell_discriminant(cosine, 1.0)), 1.0) == 0.0

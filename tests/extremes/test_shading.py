@@ -40,6 +40,7 @@ def lights(kind: int) -> layout.SceneData:
     return scene_data({layout.LIGHT_FALLOFF: [kind], layout.LIGHT_FALLOFF_COEFFICIENTS: [(0.5, 0.25, 0.125)]})
 
 
+@pytest.mark.clause("ILL-7")
 @pytest.mark.usefixtures("balls_of_200_bits")
 @given(DISTANCES)
 def test_attenuation_is_right_to_a_few_roundings_at_every_distance(distance: float) -> None:
@@ -57,6 +58,7 @@ def test_attenuation_is_right_to_a_few_roundings_at_every_distance(distance: flo
         assert isfinite(attenuation(lights(1), 0, squared))
 
 
+@pytest.mark.clause("ILL-9")
 @pytest.mark.parametrize("falloff", ["none", "inverse_square", {"constant": 0.0, "linear": 0.0, "quadratic": 1.0}])
 def test_a_light_at_the_very_point_of_a_surface_adds_nothing(falloff: Any) -> None:
     # The camera sees the point (0, 0, 1) exactly, where the light is.
@@ -66,6 +68,7 @@ def test_a_light_at_the_very_point_of_a_surface_adds_nothing(falloff: Any) -> No
     assert (beside > 0).all()
 
 
+@pytest.mark.clause("ILL-5", "ILL-6")
 @pytest.mark.usefixtures("balls_of_200_bits")
 @given(directions(), directions(), directions(), EXPONENTS)
 def test_highlights_are_in_0_to_1_and_right_for_the_cosine(
@@ -91,6 +94,7 @@ def test_highlights_are_in_0_to_1_and_right_for_the_cosine(
         )
 
 
+@pytest.mark.clause("ILL-5", "ILL-6")
 @pytest.mark.parametrize("exponent", [1e-6, 1.0, 1e6, 1e12])
 @pytest.mark.parametrize("highlight", [phong, blinn])
 def test_a_highlight_seen_head_on_is_1_and_one_from_behind_0(highlight: Any, exponent: float) -> None:
@@ -101,6 +105,7 @@ def test_a_highlight_seen_head_on_is_1_and_one_from_behind_0(highlight: Any, exp
     assert phong(up, down, down, exponent) == 0.0
 
 
+@pytest.mark.clause("REFR-7")
 @given(DISTANCES)
 def test_a_medium_transmits_between_all_and_nothing_at_every_distance(distance: float) -> None:
     clear, tinted, black = medium_transmittance((0.0, 1.0, 1e12), distance)
@@ -109,6 +114,7 @@ def test_a_medium_transmits_between_all_and_nothing_at_every_distance(distance: 
     assert tinted > 0 or distance > 700
 
 
+@pytest.mark.clause("NUM-2")
 @given(NOT_NUMBERS)
 def test_what_is_not_a_number_stays_so(wrong: float) -> None:
     first, _, third = mirror_direction((wrong, 0.0, 0.0), (0.6, 0.0, 0.8))
@@ -119,6 +125,7 @@ def test_what_is_not_a_number_stays_so(wrong: float) -> None:
         assert isnan(float_kernel().attenuation(lights(1), 0, wrong))
 
 
+@pytest.mark.clause("NUM-2")
 def test_signed_zeros_are_equal_and_infinite_distances_let_nothing_through() -> None:
     assert mirror_direction((0.0, 0.0, -1.0), (-0.0, -0.0, 1.0)) == mirror_direction((-0.0, 0.0, -1.0), (0.0, 0.0, 1.0))
     assert medium_transmittance((1.0, 1.0, 1.0), inf) == (0.0, 0.0, 0.0)
@@ -127,6 +134,7 @@ def test_signed_zeros_are_equal_and_infinite_distances_let_nothing_through() -> 
 
 
 # The sharpest highlights: a cosine one unit under 1 to a large power. Exhaustive over the last 8 units.
+@pytest.mark.clause("ILL-5")
 @pytest.mark.parametrize("ulps", range(1, 9))
 def test_the_sharpest_highlight_falls_off_with_the_angle(ulps: int) -> None:
     cosine = 1.0 - ulps * UNIT_ROUNDOFF

@@ -20,6 +20,8 @@ from tests.properties.exact import bits, root_above
 from tests.properties.strategies import Ray, Sphere, Vector
 from tests.properties.test_sphere import Meeting
 
+pytestmark = pytest.mark.clause("SPH-1")
+
 
 def vector(*parts: str) -> Vector:
     x, y, z = map(float.fromhex, parts)

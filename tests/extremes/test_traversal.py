@@ -96,6 +96,7 @@ def mesh(triangles: list[Any]) -> dict[int, list[Any]]:
     }
 
 
+@pytest.mark.clause("TRI-1", "TRAV-4")
 @pytest.mark.parametrize("name", LOST)
 def test_a_ray_that_was_lost_in_a_fan_of_triangles_is_found_with_and_without_a_tree(name: str) -> None:
     number, text = LOST[name]
@@ -113,6 +114,7 @@ SCALES = [2.0**power for power in (0, -100, 100)]
 """About 1e-30 to 1e30."""
 
 
+@pytest.mark.clause("TRAV-5")
 @pytest.mark.parametrize("scale", SCALES)
 @pytest.mark.parametrize("seed", range(20))
 def test_scale_changes_no_hit_and_no_bit_of_a_distance(seed: int, scale: float) -> None:
@@ -132,6 +134,7 @@ def test_scale_changes_no_hit_and_no_bit_of_a_distance(seed: int, scale: float) 
 DOWN = (0.0, 0.0, -1.0)
 
 
+@pytest.mark.clause("TRAV-3")
 @pytest.mark.parametrize("scale", SCALES)
 @pytest.mark.parametrize("kernel", [float_kernel, lambda: linear_kernel(False)], ids=["tree", "no tree"])
 def test_of_coincident_spheres_and_triangles_the_first_sphere_is_seen(kernel: Any, scale: float) -> None:

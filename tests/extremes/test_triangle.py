@@ -43,6 +43,7 @@ def vectors(text: str) -> list[Vector]:
     return [(x, y, z) for x, y, z in rows]
 
 
+@pytest.mark.clause("TRI-1")
 @pytest.mark.parametrize(
     ("variant", "text"),
     [(cramer_triangle_distance, MISSED_BY_CRAMERS_RULE), (moeller_trumbore, MISSED_BY_MOELLER_TRUMBORE)],
@@ -57,6 +58,7 @@ def test_a_ray_that_a_textbook_form_loses_between_two_triangles_hits_one(
     assert min(triangle_distance(origin, direction, *corners) for corners in pair) == pytest.approx(1, abs=1e-14)
 
 
+@pytest.mark.clause("TRAV-5")
 @pytest.mark.parametrize("scale", [1e-4, 1e-12, 1e-30])
 def test_small_triangles_are_lost_by_a_fixed_epsilon_only(scale: float) -> None:
     corners = ((0.0, 0.0, 0.0), (scale, 0.0, 0.0), (0.0, scale, 0.0))

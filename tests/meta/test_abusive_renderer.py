@@ -20,6 +20,8 @@ from tests.reference_tracer.small_scenes import small_scene
 if TYPE_CHECKING:
     from comparisons.results import Cell
 
+pytestmark = pytest.mark.clause("REN-1")
+
 GREY = {"color": (0.5, 0.5, 0.5)}
 
 

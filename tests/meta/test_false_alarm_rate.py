@@ -10,6 +10,8 @@ from comparisons.stochastic import SIGNIFICANCE, compare_means
 from tests.comparisons.lobe_images import draw_batch_means, interval_of, one_dielectric
 from tests.meta.lobe_biases import GLASS_SCENES, bound_of, lobes_of
 
+pytestmark = pytest.mark.clause("VER-6")
+
 # Of 16x16 pixels, which keep what the distributions are like and take 10 ms each: more than 2,000 in all, and 20,000 in
 # the deep profile.
 IMAGES_A_SCENE = 300 if settings().max_examples <= 100 else 3000
@@ -110,6 +112,7 @@ def test_the_bound_is_nearly_reached_where_everything_hangs_on_one_sample():
     assert rate <= p_value <= 10 * rate
 
 
+@pytest.mark.clause("VER-7")
 @pytest.mark.parametrize(("probability", "samples"), [(0.9, 1024), (0.5, 8192)])
 def test_a_single_pixel_that_is_wrong_by_ten_percent_is_detected(probability, samples):
     # Fewer samples than these cannot show it: with probability 0.5 the noise of 256 samples is 6 % of the mean, and

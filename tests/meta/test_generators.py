@@ -31,6 +31,8 @@ from tests.properties.test_bounding_volume import rays_near_boxes, touches
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+pytestmark = pytest.mark.clause("PRJ-5")
+
 # One example is enough, and need not be small.
 SEARCH = settings(max_examples=3000, derandomize=False, database=None, phases=[Phase.generate])
 

@@ -13,6 +13,8 @@ from typing import Any
 
 import pytest
 
+pytestmark = pytest.mark.clause("RES-3", "RES-5")
+
 SCENES = 9
 FINISHED = 3
 """So many cells are waited for before the run is stopped."""

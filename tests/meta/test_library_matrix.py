@@ -20,6 +20,8 @@ from scenes.shapes import Sphere
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("VER-3")
+
 REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))
 # Largest difference of a deterministic diffuse scene with one light: some 2^7 float32 roundings of values about 1.
 SINGLE_LIGHT_LIMIT = 2e-5
@@ -140,6 +142,7 @@ def test_every_pixel_of_every_cell_is_judged_and_hardly_one_by_a_box_of_several_
     assert capped < sum(judgement["pixels"] for judgement in deterministic) / 1000
 
 
+@pytest.mark.clause("ARI-5")
 def test_every_image_of_the_library_is_certified(results: dict[str, Any]) -> None:
     assert results["cells"]  # the run has left its truths in the cache
     pixels = undecided = 0

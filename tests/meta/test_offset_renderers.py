@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from comparisons.feasible_set import FeasibleSet
 
-pytestmark = pytest.mark.usefixtures("keep_precision")
+pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
 
 BITS = {"float32": 24, "float64": 53}
 # Far above rounding in either format, and far enough to be seen in an image.

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
     from hypothesis import strategies as st
 
+pytestmark = pytest.mark.clause("PRJ-5")
+
 
 @pytest.mark.parametrize("ulps", range(-MOST_ULPS, MOST_ULPS + 1))
 def test_incidences_reach_every_ulp_around_the_critical_angle(ulps: int) -> None:

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+pytestmark = pytest.mark.clause("VER-5")
+
 BYTES = OutputModel("uint8", "sRGB", clipped=True)
 LINEAR_BYTES = OutputModel("uint8", clipped=True)
 WORDS = OutputModel("uint16", clipped=True)

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from comparisons.renderer import Rendering
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("VER-12")
+
 CLOSED_FORM = ("closed_form", "local")
 DIRECT = ("mitsuba", "direct")
 PATH = ("mitsuba-llvm", "path")

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+pytestmark = pytest.mark.clause("VER-7")
+
 # What is found of a fault in all light with the paths that compiled code traces. The knot has the most edges, where the
 # truth's interval is wide.
 SMALLEST_BIASES = {"sphere-over-floor": 0.02, "single-sphere": 0.02, "cornell-box": 0.02, "trefoil-knot": 0.04}

@@ -16,6 +16,8 @@ from scenes.library import open_scene
 from tests.comparisons.lobe_images import draw_batch_means, truth_of
 from tests.meta.lobe_biases import BIASES, GLASS_SCENES, bound_of, lobes_of
 
+pytestmark = pytest.mark.clause("VER-7")
+
 # A float32 tracer of these scenes is some ten roundings of 2^-24 off, away from edges; 2^-18 has room for 64.
 HALF_WIDTH = 2.0**-18
 

@@ -22,6 +22,8 @@ from reference_tracer.variants import PLAIN_FORMS
 from scenes.library import library_names
 from tests.reference_tracer.small_scenes import library_scene
 
+pytestmark = pytest.mark.clause("VER-2")
+
 WIDTH, HEIGHT = 20, 15
 
 FLOAT32 = Arithmetic(
@@ -51,6 +53,7 @@ def outside(name: str, arithmetic: Arithmetic, bits: int) -> tuple[int, int]:
     return int((distances > 1).sum()), int((distances == UNJUDGED).sum())
 
 
+@pytest.mark.clause("ARI-4")
 @pytest.mark.parametrize("name", library_names())
 def test_what_float32_computes_lies_in_its_feasible_set_at_every_pixel(name: str) -> None:
     failing, unjudged = outside(name, FLOAT32, 24 - LIBRARY_BITS)

@@ -19,6 +19,8 @@ from tests.reproduction import note_case
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+pytestmark = pytest.mark.clause("TRAV-4")
+
 Box = tuple[Vector, Vector]
 
 

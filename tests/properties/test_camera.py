@@ -5,6 +5,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -49,6 +50,7 @@ def camera(position: Any, look_at: Any, up: Any, extent: Any, width: int, height
     )
 
 
+@pytest.mark.clause("CAM-2", "CAM-3", "CAM-4")
 @given(
     rational_frames(),
     st.tuples(SMALL_FRACTIONS, SMALL_FRACTIONS, SMALL_FRACTIONS),
@@ -106,6 +108,7 @@ def views(draw: st.DrawFn) -> tuple[layout.SceneData, int, int]:
     return camera(position, look_at, up, angle, width, height), width, height
 
 
+@pytest.mark.clause("CAM-3")
 @given(views(), st.floats(0, 1), st.floats(0, 1))
 def test_directions_are_unit_vectors_and_start_at_the_camera(
     view: tuple[layout.SceneData, int, int], across: float, below: float
@@ -118,6 +121,7 @@ def test_directions_are_unit_vectors_and_start_at_the_camera(
     assert abs(dot(exact(direction), exact(direction)) - 1) <= gamma(10)
 
 
+@pytest.mark.clause("CAM-1", "CAM-2")
 @given(views(), st.floats(0, 1, exclude_max=True), st.floats(0, 1))
 def test_rays_turn_right_and_down_as_the_coordinates_grow(
     view: tuple[layout.SceneData, int, int], x: float, y: float

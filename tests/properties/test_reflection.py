@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 
 from reference_tracer.reflection import mirror_direction
@@ -7,6 +8,8 @@ from tests.properties.exact import Exact, cross, dot, exact, gamma, length, minu
 from tests.properties.strategies import Vector, directions, rational_unit_vectors, vectors
 from tests.reference_tracer.kernels import exact_kernel
 from tests.reproduction import note_case
+
+pytestmark = pytest.mark.clause("REFL-1")
 
 
 @given(rational_unit_vectors(), rational_unit_vectors())

@@ -41,6 +41,7 @@ def born_wolf(cosine: Fraction, g: Fraction, ratio: Fraction) -> Fraction:
     return (perpendicular**2 + parallel**2) / 2
 
 
+@pytest.mark.clause("REFR-3")
 @given(rational_refractions())
 def test_the_refracted_direction_obeys_snells_law_exactly(case: Refraction) -> None:
     kernel = exact_kernel()
@@ -52,6 +53,7 @@ def test_the_refracted_direction_obeys_snells_law_exactly(case: Refraction) -> N
     assert dot(refracted, cross(case.normal, case.tangent)) == 0
 
 
+@pytest.mark.clause("REFR-3")
 @given(rational_refractions())
 def test_the_refracted_ray_reversed_is_refracted_into_the_reversed_ray(case: Refraction) -> None:
     kernel = exact_kernel()
@@ -65,6 +67,7 @@ def test_the_refracted_ray_reversed_is_refracted_into_the_reversed_ray(case: Ref
     assert back == (-case.direction[0], -case.direction[1], -case.direction[2])
 
 
+@pytest.mark.clause("REFR-4", "REFR-8")
 @given(rational_refractions())
 def test_the_reflectance_is_the_textbooks_the_same_from_both_sides_and_a_fraction(case: Refraction) -> None:
     reflectance = exact_kernel().fresnel_reflectance(case.cosine, case.g, case.ratio)
@@ -78,6 +81,7 @@ def test_the_reflectance_is_the_textbooks_the_same_from_both_sides_and_a_fractio
         assert exact_kernel().fresnel_reflectance(beyond, case.cosine / case.ratio, 1 / case.ratio) == reflectance
 
 
+@pytest.mark.clause("REFR-4")
 @given(rational_refractions())
 def test_reflected_and_transmitted_power_add_up(case: Refraction) -> None:
     assume(case.cosine > 0)
@@ -88,12 +92,14 @@ def test_reflected_and_transmitted_power_add_up(case: Refraction) -> None:
     assert exact_kernel().fresnel_reflectance(case.cosine, case.g, case.ratio) + transmitted == 1
 
 
+@pytest.mark.clause("REFR-4")
 @given(st.fractions(Fraction(1, 1000), 1000, max_denominator=1000))
 def test_head_on_the_reflectance_is_that_of_the_indices_alone(ratio: Fraction) -> None:
     reflectance = exact_kernel().fresnel_reflectance(Fraction(1), ratio, ratio)
     assert reflectance == ((ratio - 1) / (ratio + 1)) ** 2
 
 
+@pytest.mark.clause("REFR-4")
 @given(st.integers(1, 60), st.integers(1, 60))
 def test_at_brewsters_angle_no_light_of_one_polarisation_is_reflected(a: int, b: int) -> None:
     assume(a != b)
@@ -105,6 +111,7 @@ def test_at_brewsters_angle_no_light_of_one_polarisation_is_reflected(a: int, b:
     assert exact_kernel().fresnel_reflectance(cosine, g, ratio) == perpendicular**2 / 2
 
 
+@pytest.mark.clause("REFR-2")
 @given(cosines_and_ratios())
 def test_total_reflection_happens_exactly_if_exact_arithmetic_says_so(case: tuple[float, float]) -> None:
     cosine, ratio = case
@@ -115,6 +122,7 @@ def test_total_reflection_happens_exactly_if_exact_arithmetic_says_so(case: tupl
     assert (snell_discriminant(cosine, ratio) < 0) == (excess + squared < 0)
 
 
+@pytest.mark.clause("REFR-8")
 @given(cosines_and_ratios())
 def test_rounding_never_makes_a_reflectance_leave_0_to_1(case: tuple[float, float]) -> None:
     cosine, ratio = case
@@ -129,6 +137,7 @@ def test_rounding_never_makes_a_reflectance_leave_0_to_1(case: tuple[float, floa
         assert reflectance <= 1
 
 
+@pytest.mark.clause("REFR-4")
 @given(cosines_and_ratios())
 def test_rounding_changes_a_reflectance_by_less_than_derived(case: tuple[float, float]) -> None:
     cosine, ratio = case
@@ -145,6 +154,7 @@ def test_rounding_changes_a_reflectance_by_less_than_derived(case: tuple[float, 
     assert abs(Fraction(fresnel_reflectance(cosine, g, ratio)) - ideal) <= doubt
 
 
+@pytest.mark.clause("REFR-7")
 @given(st.floats(0, 10), st.floats(0, 10), st.floats(1e-3, 30))
 def test_a_medium_transmits_a_part_of_the_light_and_less_the_longer_the_way(
     a: float, b: float, distance: float
@@ -176,6 +186,7 @@ def born_wolf_in_balls(c: arb, g: arb, eta: arb) -> arb:
     return (across**2 + within**2) / 2
 
 
+@pytest.mark.clause("REFR-8", "NUM-2")
 @given(incidences())
 def test_a_reflectance_at_the_extremes_is_a_finite_fraction(case: tuple[float, float]) -> None:
     cosine, ratio = case
@@ -189,6 +200,7 @@ def test_a_reflectance_at_the_extremes_is_a_finite_fraction(case: tuple[float, f
     assert reflectance + (1.0 - reflectance) == pytest.approx(1.0, abs=2.0**-53)
 
 
+@pytest.mark.clause("REFR-4")
 @pytest.mark.usefixtures("balls_of_400_bits")
 @given(incidences())
 def test_a_reflectance_at_the_extremes_is_that_of_an_angle_within_rounding(case: tuple[float, float]) -> None:
@@ -215,6 +227,7 @@ def test_a_reflectance_at_the_extremes_is_that_of_an_angle_within_rounding(case:
         target(log2(max(error, 2.0**-60)) + 53, label="bits of reflectance lost")
 
 
+@pytest.mark.clause("REFR-2")
 @given(incidences())
 def test_total_reflection_at_the_extremes_is_decided_rightly_but_within_rounding(case: tuple[float, float]) -> None:
     cosine, ratio = case
@@ -227,6 +240,7 @@ def test_total_reflection_at_the_extremes_is_decided_rightly_but_within_rounding
         target(min(100.0, log2(max(float(error / abs(exactly)), 2.0**-60)) + 53), label="bits of g² lost")
 
 
+@pytest.mark.clause("REFR-3")
 @given(directions(), st.data(), EXTREME_RATIOS, st.floats(0, 1), st.sampled_from([1.0, -1.0]))
 def test_a_refracted_direction_is_as_long_as_the_index_ratio_lets_it_be_known(
     normal: Vector, data: st.DataObject, ratio: float, sine: float, side: float
@@ -247,6 +261,7 @@ def test_a_refracted_direction_is_as_long_as_the_index_ratio_lets_it_be_known(
     assert abs(squared - 1) <= gamma(64) * (1 + 1 / eta + 1 / eta**2)
 
 
+@pytest.mark.clause("NUM-2")
 @given(st.sampled_from([float("nan"), float("inf")]), incidences())
 def test_what_is_not_a_number_never_becomes_one(wrong: float, case: tuple[float, float]) -> None:
     cosine, ratio = case

@@ -5,6 +5,7 @@ from math import inf, isfinite, isnan
 from typing import Any
 
 import numpy as np
+import pytest
 from hypothesis import assume, given, target
 from hypothesis import strategies as st
 
@@ -96,6 +97,7 @@ def distance_of(ray: Ray, sphere: Sphere) -> float:
     return sphere_distance(ray.origin, ray.direction, sphere.center, sphere.radius)
 
 
+@pytest.mark.clause("SPH-1", "SPH-2")
 @given(rays_near_spheres())
 def test_a_ray_hits_exactly_if_the_exact_discriminant_says_so(case: tuple[Ray, Sphere]) -> None:
     meeting = Meeting(*case)
@@ -103,6 +105,7 @@ def test_a_ray_hits_exactly_if_the_exact_discriminant_says_so(case: tuple[Ray, S
     assert (distance_of(*case) < inf) == meeting.must_hit()
 
 
+@pytest.mark.clause("SPH-1")
 @given(rays_near_spheres())
 def test_hit_points_lie_ahead_on_the_surface(case: tuple[Ray, Sphere]) -> None:
     meeting = Meeting(*case)
@@ -114,6 +117,7 @@ def test_hit_points_lie_ahead_on_the_surface(case: tuple[Ray, Sphere]) -> None:
     assert abs(meeting.residual(distance)) <= doubt
 
 
+@pytest.mark.clause("SPH-1", "SPH-3")
 @given(rays_near_spheres())
 def test_the_nearest_root_ahead_is_chosen(case: tuple[Ray, Sphere]) -> None:
     meeting = Meeting(*case)
@@ -125,6 +129,7 @@ def test_the_nearest_root_ahead_is_chosen(case: tuple[Ray, Sphere]) -> None:
     assert before_the_foot == (meeting.constant > 0)
 
 
+@pytest.mark.clause("SPH-5")
 @given(rays_near_spheres())
 def test_normals_are_unit_vectors_that_point_outward(case: tuple[Ray, Sphere]) -> None:
     ray, sphere = case
@@ -143,6 +148,7 @@ def test_normals_are_unit_vectors_that_point_outward(case: tuple[Ray, Sphere]) -
     assert abs(dot(normal, normal) - 1) <= meeting.doubt / radius**2 + 2 * error * reach + gamma(8) * reach**2
 
 
+@pytest.mark.clause("TRAV-5")
 @given(rays_near_spheres(), AXIS_MAPS, st.sampled_from([-20, -3, 1, 20]))
 def test_mirrored_and_scaled_scenes_give_the_same_bits(
     case: tuple[Ray, Sphere], axis_map: tuple[tuple[int, ...], tuple[int, ...]], power: int
@@ -156,6 +162,7 @@ def test_mirrored_and_scaled_scenes_give_the_same_bits(
     assert image == distance_of(ray, sphere) * scale
 
 
+@pytest.mark.clause("SPH-1")
 @given(rational_unit_vectors(), rational_unit_vectors(), SMALL_FRACTIONS, AXIS_MAPS)
 def test_distances_along_a_rational_chord_are_exact_in_exact_arithmetic(
     first: tuple[Fraction, Fraction, Fraction],
@@ -172,6 +179,7 @@ def test_distances_along_a_rational_chord_are_exact_in_exact_arithmetic(
     assert distance == min(roots, default=inf)
 
 
+@pytest.mark.clause("SPH-4")
 @given(rational_unit_vectors(), rational_unit_vectors())
 def test_the_other_side_is_the_positive_root_of_the_quadratic_and_leads_back(
     first: tuple[Fraction, Fraction, Fraction], second: tuple[Fraction, Fraction, Fraction]
@@ -186,6 +194,7 @@ def test_the_other_side_is_the_positive_root_of_the_quadratic_and_leads_back(
     assert kernel.distance_to_other_side(first, times(chord, Fraction(-1)), center) == inf
 
 
+@pytest.mark.clause("SPH-4")
 @given(rays_near_spheres())
 def test_a_ray_reversed_at_the_other_side_comes_back_to_its_start(case: tuple[Ray, Sphere]) -> None:
     ray, sphere = case
@@ -210,6 +219,7 @@ def strange(*vectors: Vector) -> tuple[Any, ...]:
     return tuple(tuple(map(np.float64, vector)) for vector in vectors)
 
 
+@pytest.mark.clause("NUM-2")
 @given(STRANGE_VECTORS, STRANGE_VECTORS, STRANGE_VECTORS, STRANGE)
 def test_whatever_the_numbers_are_no_distance_is_negative_and_what_is_no_number_is_not_hit(
     origin: Vector, direction: Vector, center: Vector, radius: float
@@ -229,6 +239,7 @@ def test_whatever_the_numbers_are_no_distance_is_negative_and_what_is_no_number_
         assert not distance < inf
 
 
+@pytest.mark.clause("NUM-2")
 @given(STRANGE_VECTORS, STRANGE_VECTORS, STRANGE.filter(bool))
 def test_a_normal_of_what_is_not_a_number_is_none(point: Vector, center: Vector, radius: float) -> None:
     note_case(point=point, center=center, radius=radius)

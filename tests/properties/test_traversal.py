@@ -5,6 +5,7 @@ from math import inf
 from typing import Any
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -67,6 +68,7 @@ def ray_through(rng: np.random.Generator, scene: layout.SceneData, triangle: int
 SEEDS = st.integers(0, 2**32)
 
 
+@pytest.mark.clause("TRAV-4")
 @given(SEEDS, st.integers(1, 40))
 def test_the_tree_finds_in_exact_arithmetic_what_the_linear_scan_finds(seed: int, triangles: int) -> None:
     scene, rng = soup(seed, triangles, 0)
@@ -81,6 +83,7 @@ def test_the_tree_finds_in_exact_arithmetic_what_the_linear_scan_finds(seed: int
         assert exact_kernel().distance_to_triangle(numbers, *arguments[1:3], NOTHING, hit) == distance
 
 
+@pytest.mark.clause("TRAV-1")
 @given(SEEDS, st.integers(1, 40), st.integers(0, 4), st.booleans())
 def test_the_nearest_of_all_distances_is_found_and_what_is_left_is_not(
     seed: int, triangles: int, spheres: int, starts_on_one: bool
@@ -98,6 +101,7 @@ def test_the_nearest_of_all_distances_is_found_and_what_is_left_is_not(
     assert left < spheres or hit != left
 
 
+@pytest.mark.clause("SHAD-1", "SHAD-2")
 @given(SEEDS, st.integers(1, 40), st.integers(0, 4))
 def test_something_occludes_exactly_if_something_is_nearer_than_the_end(
     seed: int, triangles: int, spheres: int
@@ -113,6 +117,7 @@ def test_something_occludes_exactly_if_something_is_nearer_than_the_end(
         assert kernel.is_occluded(scene, origin, direction, NOTHING, nearest * (1 + 2.0**-52))
 
 
+@pytest.mark.clause("TRAV-4")
 @given(SEEDS, st.integers(1, 40))
 def test_the_tree_in_floats_loses_no_triangle_that_is_hit_exactly(seed: int, triangles: int) -> None:
     scene, rng = soup(seed, triangles, 0)

@@ -109,6 +109,7 @@ def distance_of(ray: Ray, corners: Corners) -> float:
     return triangle_distance(ray.origin, ray.direction, *corners)
 
 
+@pytest.mark.clause("TRI-1")
 @given(rays_near_triangles(CLEAR_OF_EDGES))
 def test_a_ray_hits_exactly_if_exact_barycentric_coordinates_say_so(case: tuple[Ray, Corners]) -> None:
     meeting = Meeting(*case)
@@ -117,6 +118,7 @@ def test_a_ray_hits_exactly_if_exact_barycentric_coordinates_say_so(case: tuple[
     assert (distance_of(*case) == inf) == misses
 
 
+@pytest.mark.clause("TRI-1")
 @given(rays_near_triangles(INSIDE))
 def test_hit_points_lie_ahead_in_the_plane_and_between_the_corners(case: tuple[Ray, Corners]) -> None:
     distance = distance_of(*case)
@@ -138,6 +140,7 @@ def test_hit_points_lie_ahead_in_the_plane_and_between_the_corners(case: tuple[R
     assert abs(t - ideal) <= allowed
 
 
+@pytest.mark.clause("TRI-3")
 @given(rays_near_triangles())
 def test_both_windings_are_hit_at_the_same_distance(case: tuple[Ray, Corners]) -> None:
     # Every product, and the sum of two, only changes its sign, which does not round: so the same rays hit. Only where
@@ -151,6 +154,7 @@ def test_both_windings_are_hit_at_the_same_distance(case: tuple[Ray, Corners]) -
         assert abs(Fraction(distance) - Fraction(other)) <= 2 * gamma(8) * max(map(abs, depths))
 
 
+@pytest.mark.clause("TRAV-5")
 @given(rays_near_triangles(), AXIS_MAPS, st.sampled_from([-20, -3, 1, 20]))
 def test_mirrored_and_scaled_scenes_give_the_same_bits(
     case: tuple[Ray, Corners], axis_map: tuple[tuple[int, ...], tuple[int, ...]], power: int
@@ -163,6 +167,7 @@ def test_mirrored_and_scaled_scenes_give_the_same_bits(
     assert image == distance_of(ray, corners) * scale
 
 
+@pytest.mark.clause("TRI-1")
 @given(rays_near_triangles(), AXIS_MAPS)
 def test_in_exact_arithmetic_turned_scenes_and_turned_corners_give_the_same_distance(
     case: tuple[Ray, Corners], axis_map: tuple[tuple[int, ...], tuple[int, ...]]
@@ -180,6 +185,7 @@ def test_in_exact_arithmetic_turned_scenes_and_turned_corners_give_the_same_dist
     assert kernel.triangle_distance(*turned) == distance
 
 
+@pytest.mark.clause("TRI-1")
 @given(RATIONAL_VECTORS, RATIONAL_VECTORS, RATIONAL_VECTORS, RATIONAL_VECTORS, RATIONAL_VECTORS, st.data())
 def test_in_exact_arithmetic_a_shared_edge_is_missed_by_no_triangle(
     a: Exact, b: Exact, left: Exact, right: Exact, origin: Exact, data: st.DataObject
@@ -194,6 +200,7 @@ def test_in_exact_arithmetic_a_shared_edge_is_missed_by_no_triangle(
             assert kernel.triangle_distance(origin, direction, *corners) == 1
 
 
+@pytest.mark.clause("TRI-3")
 @given(rays_near_triangles(INSIDE))
 def test_a_ray_reversed_behind_the_hit_meets_it_again_in_exact_arithmetic(case: tuple[Ray, Corners]) -> None:
     ray, corners = case
@@ -205,6 +212,7 @@ def test_a_ray_reversed_behind_the_hit_meets_it_again_in_exact_arithmetic(case: 
     assert kernel.triangle_distance(behind, times(direction, Fraction(-1)), *map(exact, corners)) == 2 * distance
 
 
+@pytest.mark.clause("TRI-4")
 @given(triangles())
 def test_normals_are_perpendicular_unit_vectors_on_the_counterclockwise_side(corners: Corners) -> None:
     a, b, c = map(exact, corners)
@@ -238,6 +246,7 @@ def cross_sizes(a: Exact, b: Exact) -> Exact:
     return a1 * b2 + a2 * b1, a2 * b0 + a0 * b2, a0 * b1 + a1 * b0
 
 
+@pytest.mark.clause("TRI-1")
 @pytest.mark.parametrize("number", [np.float64, np.float32])
 @given(case=rays_at_fans())
 def test_no_ray_passes_between_triangles_that_share_an_edge_or_a_corner(
@@ -251,6 +260,7 @@ def test_no_ray_passes_between_triangles_that_share_an_edge_or_a_corner(
     assert min(distances) < inf
 
 
+@pytest.mark.clause("NUM-2", "TRI-1")
 @given(STRANGE_VECTORS, STRANGE_VECTORS, st.tuples(STRANGE_VECTORS, STRANGE_VECTORS, STRANGE_VECTORS))
 def test_whatever_the_numbers_are_the_distance_is_positive(origin: Vector, direction: Vector, corners: Corners) -> None:
     note_case(origin=origin, direction=direction, corners=corners)

@@ -13,6 +13,8 @@ from raytruth import command_line
 from raytruth.command_line import COMMANDS, main
 from tests.raytruth.running import refusal, run, run_apart
 
+pytestmark = pytest.mark.clause("CMD-2", "CMD-4")
+
 
 def test_help_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(capsys, "--help")
@@ -114,6 +116,7 @@ def test_a_terminal_that_cannot_show_greek_gets_question_marks(tmp_path: Path) -
     assert "index ratio ? =" in done.stdout
 
 
+@pytest.mark.clause("CMD-1")
 def test_the_installed_program_gives_the_exit_status(tmp_path: Path) -> None:
     done = run_apart(tmp_path, "explain", "single-sphere", "--pixel", "9999,0")
     assert done.returncode == 2

@@ -12,6 +12,8 @@ from tests.raytruth.running import document, refusal, run
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("CMD-2", "CMD-3", "CMD-4")
+
 
 def test_the_text_ends_with_the_pixel(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(capsys, "explain", "single-sphere", "--pixel", "48,48")

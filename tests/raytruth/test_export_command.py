@@ -13,6 +13,8 @@ from tests.raytruth.running import document, refusal, run
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("CMD-2", "CMD-4", "REN-2")
+
 
 @pytest.mark.parametrize(
     ("arguments", "expected"),

@@ -8,6 +8,8 @@ from comparisons.renderers.closed_form import ClosedFormRenderer
 from scenes.library import library_names
 from tests.raytruth.running import document, refusal, run
 
+pytestmark = pytest.mark.clause("CMD-3", "CMD-4", "REN-5")
+
 
 def test_each_renderer_asked_for_has_a_line(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(capsys, "renderers", "raytruth", "closed_form")

@@ -2,13 +2,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
+
 from tests.raytruth.running import document, refusal
 from tests.reports.sample_results import write_sample
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    import pytest
+pytestmark = pytest.mark.clause("CMD-2", "CMD-4")
 
 
 def test_the_report_is_rebuilt_from_the_directory(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from comparisons.renderer import Rendering
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("CMD-1", "CMD-2", "CMD-4")
+
 SCENE: dict[str, Any] = {
     "purpose": "Small.",
     "convention": "whitted",
@@ -228,6 +230,7 @@ def test_a_file_in_the_place_of_the_results_is_refused(folder: Path, capsys: pyt
     assert (folder / "results").read_text() == "mine"
 
 
+@pytest.mark.clause("CMD-3")
 def test_json_is_one_document_that_follows_the_format(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     told = document(capsys, "run", "small.json", "--renderer", "closed_form")
     assert next(iter(told)) == "schema_version"
@@ -256,6 +259,7 @@ def test_json_of_an_infinite_error_is_still_json(pretender: Pretender, capsys: p
     assert cell["largest_error"] == "Infinity"
 
 
+@pytest.mark.clause("RES-4")
 def test_runs_into_one_directory_add_up(pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene_file(folder / "other.json")
     for scene in ("small.json", "other.json"):
@@ -264,6 +268,7 @@ def test_runs_into_one_directory_add_up(pretender: Pretender, folder: Path, caps
     assert pretender.calls == 2
 
 
+@pytest.mark.clause("RES-3")
 def test_an_interrupted_run_can_be_resumed(
     pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

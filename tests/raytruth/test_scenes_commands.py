@@ -12,6 +12,8 @@ from tests.raytruth.running import document, refusal, run
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("CMD-2", "CMD-3", "CMD-4")
+
 
 def test_list_has_a_line_for_each_scene(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(capsys, "scenes", "list")

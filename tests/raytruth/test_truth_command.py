@@ -14,6 +14,8 @@ from tests.reference_tracer.small_scenes import small_scene, sphere
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("CMD-2", "CMD-4")
+
 SMALL = ("--size", "8x6", "--jobs", "1")
 
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-pytestmark = pytest.mark.usefixtures("keep_precision")
+pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("ARI-1")]
 
 
 @pytest.fixture
@@ -123,6 +123,7 @@ def test_interpreted_and_compiled_floats_give_the_same_bits(name: str) -> None:
         assert one.tolist() == other.tolist()
 
 
+@pytest.mark.clause("ARI-4")
 @pytest.mark.parametrize("name", ["whitted-1980", "tinted-glass"])
 def test_some_outcome_in_balls_holds_the_floats_of_a_pixel(name: str) -> None:
     scene = library_scene(name, 8, 6)
@@ -148,6 +149,7 @@ def quarter_diffuse(scene, material, point):  # type: ignore[no-untyped-def]  # 
     return (0.25, 0.25, 0.25)
 
 
+@pytest.mark.clause("ARI-2")
 def test_another_override_of_the_same_function_is_another_compiled_kernel(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -8,6 +8,8 @@ from reference_tracer.arithmetic import FLOAT
 from reference_tracer.rendering import prepare
 from tests.reference_tracer.small_scenes import small_scene
 
+pytestmark = pytest.mark.clause("BG-1")
+
 
 def seen(background: dict[str, Any] | None, direction: tuple[float, float, float]) -> tuple[float, float, float]:
     prepared = prepare(small_scene(background=background) if background else small_scene(), FLOAT)

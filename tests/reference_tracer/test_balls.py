@@ -25,7 +25,7 @@ from tests.reference_tracer.kernels import kept_precision, numpy_kernel
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-pytestmark = pytest.mark.usefixtures("keep_precision")
+pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("ARI-3")]
 # The precision is the same in all examples, so that it does not matter that the fixture runs once for all of them.
 with_fixture = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 
@@ -188,6 +188,7 @@ def test_a_power_of_the_unknown_is_unknown() -> None:
     assert not functions(53)["sqrt"](unknown).is_finite()
 
 
+@pytest.mark.clause("ARI-4")
 @with_fixture
 @given(st.floats(-1e6, 1e6, width=32), st.floats(-1e6, 1e6), st.integers(11, 60))
 def test_a_stored_number_is_exact_if_it_fits_and_else_holds_both_itself_and_what_is_stored(
@@ -213,6 +214,7 @@ def rounded(keep_precision: None) -> Any:  # noqa: ARG001 - the kernel sets the 
     return make_kernel(rounded_ball_arithmetic(24, Decisions()), set(Feature))
 
 
+@pytest.mark.clause("ARI-4")
 @with_fixture
 @given(a=VECTORS, b=VECTORS, c=VECTORS)
 def test_rounded_balls_hold_what_float32_makes_of_the_tracers_own_functions(
@@ -237,6 +239,7 @@ def test_rounded_balls_hold_what_float32_makes_of_the_tracers_own_functions(
         assert ball.contains(arb(float(value))), [part.hex() for vector in (a, b, c) for part in vector]
 
 
+@pytest.mark.clause("ARI-4")
 @pytest.mark.parametrize("bits", [11, 24, 53])
 def test_each_operation_widens_a_rounded_ball_by_one_roundoff(bits: int) -> None:
     kernel = make_kernel(rounded_ball_arithmetic(bits, Decisions()), set(Feature))

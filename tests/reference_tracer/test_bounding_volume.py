@@ -8,6 +8,8 @@ import pytest
 
 from reference_tracer.bounding_volume import box_is_missed, farthest, rounding_allowance
 
+pytestmark = pytest.mark.clause("TRAV-4")
+
 LOW, HIGH = (-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)
 ALONG_X = (1.0, 0.0, 0.0)
 

@@ -5,6 +5,8 @@ import pytest
 
 from reference_tracer.bounding_volume_tree import TRIANGLES_IN_A_LEAF, build_tree
 
+pytestmark = pytest.mark.clause("ARI-8")
+
 
 @pytest.mark.parametrize("count", [1, TRIANGLES_IN_A_LEAF, TRIANGLES_IN_A_LEAF + 1, 17, 300])
 def test_every_triangle_is_in_one_leaf_within_all_boxes_above_it(count: int) -> None:

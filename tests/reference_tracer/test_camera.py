@@ -23,6 +23,7 @@ def rays(scene: Scene) -> list[list[tuple[tuple[float, float, float], tuple[floa
     ]
 
 
+@pytest.mark.clause("CAM-3", "CAM-4")
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_the_central_pixel_looks_at_the_point_that_is_looked_at(projection: str) -> None:
     origin, direction = rays(small_scene(projection=projection, width=3, height=5))[2][1]
@@ -30,6 +31,7 @@ def test_the_central_pixel_looks_at_the_point_that_is_looked_at(projection: str)
     assert direction == (0.0, 0.0, -1.0)
 
 
+@pytest.mark.clause("CAM-1", "CAM-2")
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_x_grows_right_and_y_grows_down(projection: str) -> None:
     image = rays(small_scene(projection=projection, width=4, height=4))
@@ -39,6 +41,7 @@ def test_x_grows_right_and_y_grows_down(projection: str) -> None:
     assert reached[0] < 0 < reached[1]
 
 
+@pytest.mark.clause("CAM-2", "CAM-3")
 def test_the_field_of_view_is_the_vertical_one_and_pixels_are_square() -> None:
     image = rays(small_scene(projection="perspective", width=7, height=5, extent=60.0))
     slope = tan(radians(30)) * (
@@ -50,6 +53,7 @@ def test_the_field_of_view_is_the_vertical_one_and_pixels_are_square() -> None:
     assert side[0] / -side[2] == pytest.approx(slope, rel=2**-48)  # two pixels from the centre, as the top row is
 
 
+@pytest.mark.clause("CAM-4")
 def test_the_view_height_is_the_height_of_what_an_orthographic_camera_sees() -> None:
     image = rays(small_scene(projection="orthographic", width=2, height=4, extent=8.0))
     assert [line[0][0][1] for line in image] == [3.0, 1.0, -1.0, -3.0]

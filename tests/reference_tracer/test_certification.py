@@ -20,6 +20,8 @@ from tests.reproduction import note_case
 if TYPE_CHECKING:
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("ARI-5")
+
 # An irrational unit direction from here to the origin, so that no ball on the way is exact.
 ASKEW = {"position": (0.0, 1.0, 2.0)}
 FAR = {"position": (0.0, 2.0**36, 2.0**37)}
@@ -113,6 +115,7 @@ def test_a_pixel_gets_the_bits_that_a_narrow_radius_needs() -> None:
     assert abs(narrow.middle[0] - wide.middle[0]) <= wide.radius[0]
 
 
+@pytest.mark.clause("NUM-3")
 def test_an_edge_met_exactly_is_undecided_and_holds_both_colours() -> None:
     half = {"shape": "triangle", "vertices": ((-3.0, 0.0, -3.0), (-3.0, 0.0, 3.0), (3.0, 0.0, 3.0)), "material": "a"}
     scene = view([half], {"a": SHINING}, background={"color": (0.0, 0.0, 1.0)})
@@ -128,6 +131,7 @@ def test_an_edge_met_exactly_is_undecided_and_holds_both_colours() -> None:
     assert pixel.undecided.direction == pytest.approx((0.0, -math.sqrt(0.2), -2 * math.sqrt(0.2)))
 
 
+@pytest.mark.clause("NUM-3")
 def test_a_sphere_touched_exactly_is_undecided_and_says_so() -> None:
     # Along the x axis from the origin of the ray's closest approach, in its own plane: the distance is the radius.
     scene = view([sphere("a", center=(1.0, 0.0, 0.0), radius=1.0)], {"a": SHINING})

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from reference_tracer.certification import CertifiedPixel
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("ARI-6")
+
 
 @pytest.fixture
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -60,6 +62,7 @@ def touching_scene() -> Scene:
     )
 
 
+@pytest.mark.clause("ARI-5")
 @pytest.mark.usefixtures("cache")
 def test_each_pixel_is_in_its_place() -> None:
     image = certified_image(scene())
@@ -73,6 +76,7 @@ def test_each_pixel_is_in_its_place() -> None:
     assert image.decided.all()
 
 
+@pytest.mark.clause("ARI-8")
 @pytest.mark.usefixtures("cache")
 def test_processes_side_by_side_give_the_same_image() -> None:
     told: list[tuple[int, int]] = []
@@ -133,6 +137,7 @@ def test_another_scene_or_size_or_code_of_ours_makes_another_image(
     assert len(evaluated) == WIDTH * (4 * HEIGHT - 1)
 
 
+@pytest.mark.clause("ARI-5")
 @pytest.mark.usefixtures("cache")
 def test_undecided_pixels_are_kept_with_their_reason() -> None:
     made = certified_image(touching_scene())
@@ -145,6 +150,7 @@ def test_undecided_pixels_are_kept_with_their_reason() -> None:
     assert_same(certified_image(touching_scene()), made)
 
 
+@pytest.mark.clause("ARI-5")
 @pytest.mark.usefixtures("cache")
 def test_what_is_wide_against_the_largest_value_gets_more_bits(evaluated: list[tuple[int, int]]) -> None:
     # So small and far that 128 bits leave the point on it, and so its normal, uncertain.
@@ -163,12 +169,14 @@ def test_what_is_wide_against_the_largest_value_gets_more_bits(evaluated: list[t
     assert len(evaluated) == 2
 
 
+@pytest.mark.clause("ARI-5")
 def test_the_largest_value_is_one_that_is_reached_for_certain() -> None:
     image = certified_image(scene())
     image.radius[...] = 0.25
     assert largest_value([image]) == image.middle.max() - 0.25
 
 
+@pytest.mark.clause("ARI-5")
 @pytest.mark.parametrize("name", library_names())
 def test_no_pixel_of_a_library_scene_needs_more_than_it_gets(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

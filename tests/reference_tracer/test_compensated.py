@@ -15,6 +15,8 @@ from tests.properties.strategies import Ray, Sphere, rays_close_to_spheres
 from tests.reference_tracer.kernels import exact_kernel, float_kernel, fractions_of, numpy_kernel
 from tests.reproduction import note_case
 
+pytestmark = pytest.mark.clause("ARI-1")
+
 NUMBERS = st.floats(-1e30, 1e30, allow_subnormal=False).filter(lambda x: x == 0 or abs(x) > 1e-30)
 NUMBERS_32 = st.floats(-(2.0**40), 2.0**40, width=32, allow_subnormal=False).filter(
     lambda x: x == 0 or abs(x) > 2.0**-40
@@ -57,6 +59,7 @@ def test_in_exact_arithmetic_there_is_no_error() -> None:
     assert exact_kernel().sphere_constant(fractions_of(origin), fractions_of(center), Fraction(0.5)) == constant
 
 
+@pytest.mark.clause("SPH-1")
 @pytest.mark.parametrize(("number", "bits_of_type"), [(np.float64, 53), (np.float32, 24)])
 @given(case=rays_close_to_spheres())
 def test_the_constant_of_a_huge_sphere_keeps_its_bits_close_to_the_surface(
@@ -79,6 +82,7 @@ def test_the_constant_of_a_huge_sphere_keeps_its_bits_close_to_the_surface(
     assert abs(Fraction(float(constant)) - ideal) <= doubt
 
 
+@pytest.mark.clause("SPH-1")
 def test_a_camera_one_metre_above_the_earth_loses_no_bit() -> None:
     origin, radius = (0.6 * 6371001.0, 0.0, 0.8 * 6371001.0), 6371000.0
     ideal = dot(exact(origin), exact(origin)) - Fraction(radius) ** 2

@@ -3,6 +3,8 @@ import pytest
 
 from reference_tracer.compiled_stack import CAPACITY, height_of, new_stack, pop, push
 
+pytestmark = pytest.mark.clause("ARI-1")
+
 
 @numba.njit(_nrt=False)  # as kernels are, but not kept: what is kept would not notice a change of the stack
 def take_all_but_first(count: int) -> int:

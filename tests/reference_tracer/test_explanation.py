@@ -7,6 +7,8 @@ from reference_tracer.rendering import prepare
 from scenes.library import open_scene
 from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("ARI-7")
+
 # Together they have every term, both projections, both kinds of lights, absorption, and meshes in a tree of boxes.
 SCENES = (
     "whitted-1980",

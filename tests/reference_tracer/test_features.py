@@ -1,7 +1,11 @@
 from __future__ import annotations
 
+import pytest
+
 from reference_tracer import features
 from scenes.requirements import Feature
+
+pytestmark = pytest.mark.clause("SCN-6")
 
 
 def names() -> dict[str, bool]:

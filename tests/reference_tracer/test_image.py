@@ -4,6 +4,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pytest
 
 from reference_tracer.arithmetic import FLOAT
 from reference_tracer.rendering import prepare, render
@@ -23,6 +24,7 @@ def board(width: int, height: int) -> Scene:
     )
 
 
+@pytest.mark.clause("IMG-1")
 def test_rays_go_through_the_centres_of_pixels() -> None:
     image = render(board(4, 4), EXACT)[:, :, 0]
     columns, lines = np.meshgrid(np.arange(4), np.arange(4))
@@ -30,6 +32,7 @@ def test_rays_go_through_the_centres_of_pixels() -> None:
     assert (image == (columns + lines) % 2).all()
 
 
+@pytest.mark.clause("IMG-2")
 def test_a_pixel_is_the_mean_over_a_regular_grid_of_samples() -> None:
     one_pixel = board(1, 1)
     assert render(one_pixel, EXACT, samples=4)[0, 0, 0] == Fraction(1, 2)
@@ -40,6 +43,7 @@ def test_a_pixel_is_the_mean_over_a_regular_grid_of_samples() -> None:
         assert image[0, 0, 0] == expected
 
 
+@pytest.mark.clause("ARI-8")
 def test_rows_that_are_not_asked_for_are_left_alone() -> None:
     prepared = prepare(board(3, 4), FLOAT)
     image = np.full((4, 3, 3), np.nan)
@@ -48,6 +52,7 @@ def test_rows_that_are_not_asked_for_are_left_alone() -> None:
     assert np.isnan(image[[0, 3]]).all()
 
 
+@pytest.mark.clause("IMG-4")
 def test_first_hits_are_distances_and_numbers_of_primitives() -> None:
     scene = small_scene(width=3, height=1, extent=1.0, camera={"position": (0.5, 0.0, 5.0), "look_at": (0.5, 0.0, 0.0)})
     prepared = prepare(scene, FLOAT)

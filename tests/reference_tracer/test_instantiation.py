@@ -17,6 +17,8 @@ from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene
 if TYPE_CHECKING:
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("SCN-6")
+
 # Functions that belong to one feature each, and to no other.
 FUNCTIONS_OF = {
     Feature.SPHERES: {"nearest_sphere", "sphere_distance", "distance_to_other_side", "sphere_normal"},
@@ -89,6 +91,7 @@ def test_every_feature_is_required_by_some_library_scene() -> None:
     assert set().union(*(required_features(open_scene(name)) for name in library_names())) == set(Feature)
 
 
+@pytest.mark.clause("ILL-8")
 @pytest.mark.parametrize("name", ["phong-sphere", "plane-mirror", "tinted-glass", "directional-light", "trefoil-knot"])
 def test_features_that_a_scene_does_not_require_do_not_change_its_picture(name: str) -> None:
     scene = library_scene(name, 6, 4)
@@ -120,6 +123,7 @@ def brighter(scene, light, distance_squared):  # type: ignore[no-untyped-def]  #
     return dot((1.0, 1.0, 1.0), (1.0, 0.5, 0.5))  # type: ignore[name-defined] # noqa: F821 - where it is put it is known
 
 
+@pytest.mark.clause("ARI-2")
 def test_an_override_takes_effect_and_may_use_what_the_source_has() -> None:
     scene = small_scene(lights=[lamp((0.0, 0.0, 3.0))])
     assert render(scene, FLOAT)[0, 0, 0] == 1.0
@@ -127,17 +131,20 @@ def test_an_override_takes_effect_and_may_use_what_the_source_has() -> None:
     assert render(scene, FLOAT)[0, 0, 0] == 1.0
 
 
+@pytest.mark.clause("ARI-2")
 def test_what_only_the_overridden_function_needed_is_left_out() -> None:
     features = required_features(open_scene("single-sphere"))
     assert "is_occluded" in kernel_source(features)[0]
     assert "is_occluded" not in kernel_source(features, {"is_shadowed": no_shadows})[0]
 
 
+@pytest.mark.clause("ARI-2")
 def test_an_unknown_function_cannot_be_overridden() -> None:
     with pytest.raises(KeyError, match="no function is_shadowy "):
         prepare(small_scene(), FLOAT, {"is_shadowy": no_shadows})
 
 
+@pytest.mark.clause("ARI-1")
 def test_float_literals_are_named_and_whole_numbers_stay() -> None:
     source, literals = kernel_source(set(Feature))
     assert not [n for n in ast.walk(ast.parse(source)) if isinstance(n, ast.Constant) and isinstance(n.value, float)]
@@ -145,6 +152,7 @@ def test_float_literals_are_named_and_whole_numbers_stay() -> None:
     assert set(literals) <= names_in(source)
 
 
+@pytest.mark.clause("ARI-3")
 def test_decided_comparisons_leave_no_operator_to_compare_with() -> None:
     source, _ = kernel_source(set(Feature), decided_comparisons=True)
     nodes = list(ast.walk(ast.parse(source)))

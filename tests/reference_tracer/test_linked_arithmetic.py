@@ -17,6 +17,8 @@ from tests.reference_tracer.kernels import kept_precision
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+pytestmark = pytest.mark.clause("ARI-4")
+
 BITS = 24
 ROUNDOFF = 2.0**-BITS
 

@@ -17,6 +17,8 @@ from tests.reference_tracer.kernels import kept_precision
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+pytestmark = pytest.mark.clause("ARI-4")
+
 BITS = 24
 """Of float32, which is what the enclosures are held against."""
 

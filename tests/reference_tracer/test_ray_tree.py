@@ -24,6 +24,7 @@ def pixel(materials: dict[str, Any], objects: list[Any], **changes: Any) -> Any:
     return tuple(render(small_scene(materials=materials, objects=objects, **changes), arithmetic)[0, 0])
 
 
+@pytest.mark.clause("REFL-2", "TREE-2")
 def test_a_mirror_shows_what_stands_before_it_times_its_reflectance() -> None:
     # The camera stands between: a window of depth 0 shows only the mirror, which is black by itself.
     materials, objects = {"mirror": MIRROR, "glow": GLOW}, [square("mirror", 0.0), square("glow", 8.0)]
@@ -31,6 +32,7 @@ def test_a_mirror_shows_what_stands_before_it_times_its_reflectance() -> None:
     assert pixel(materials, objects, max_depth=0) == (0, 0, 0)
 
 
+@pytest.mark.clause("TREE-1", "TREE-2")
 @pytest.mark.parametrize("depth", [1, 2, 3, 8])
 def test_facing_mirrors_give_a_geometric_series(depth: int) -> None:
     part = Fraction(1, 2)
@@ -39,10 +41,12 @@ def test_facing_mirrors_give_a_geometric_series(depth: int) -> None:
     assert color == (sum(part**k for k in range(depth + 1)),) * 3
 
 
+@pytest.mark.clause("BG-2")
 def test_a_mirror_in_the_void_shows_the_background() -> None:
     assert pixel({"mirror": MIRROR}, [square("mirror", 0.0)], max_depth=1, **SKY) == (Fraction(1, 2), Fraction(1, 2), 4)
 
 
+@pytest.mark.clause("REFR-5")
 def test_one_surface_of_glass_splits_light_by_fresnel() -> None:
     # The sky behind a single surface; the way in changes radiance by 1/η² in the radiometric convention only.
     materials = {"glass": GLASS, "glow": GLOW}
@@ -53,6 +57,7 @@ def test_one_surface_of_glass_splits_light_by_fresnel() -> None:
     assert radiometric == tuple((1 - REFLECTANCE) * part / Fraction(9, 4) for part in (1, 2, 4))
 
 
+@pytest.mark.clause("REFR-5")
 @pytest.mark.parametrize("convention", ["whitted", "radiometric"])
 def test_through_a_ball_of_glass_both_scalings_cancel(convention: str) -> None:
     # Head on through both sides; the ray reflected inside ends at depth 2. Outside is the sky on all sides.
@@ -61,6 +66,7 @@ def test_through_a_ball_of_glass_both_scalings_cancel(convention: str) -> None:
     assert color == tuple((REFLECTANCE + through) * part for part in (1, 2, 4))
 
 
+@pytest.mark.clause("TREE-1", "TREE-3")
 def test_deeper_trees_add_the_reflections_inside() -> None:
     # Depth 3: once reflected inside, then out at the front, too.
     color = pixel({"glass": GLASS}, [sphere("glass")], max_depth=3, **SKY)
@@ -68,12 +74,14 @@ def test_deeper_trees_add_the_reflections_inside() -> None:
     assert color == tuple(seen * part for part in (1, 2, 4))
 
 
+@pytest.mark.clause("REFR-6")
 def test_a_constant_split_weighs_both_rays_by_its_constants() -> None:
     glass = {"dielectric": GLASS["dielectric"] | {"reflectance": (0.5, 0.0, 0.25), "transmittance": (0.25, 1.0, 0.5)}}
     color = pixel({"glass": glass}, [square("glass", 0.0)], max_depth=1, **SKY)
     assert color == (Fraction(3, 4), 2, 3)
 
 
+@pytest.mark.clause("REFR-7", "REFR-9", "BG-3")
 def test_a_medium_absorbs_along_the_way_inside_it() -> None:
     glass = {"dielectric": GLASS["dielectric"] | {"absorption": (0.0, 0.125, 0.25)}}
     color = pixel({"glass": glass}, [sphere("glass")], max_depth=2, **SKY)
@@ -82,6 +90,7 @@ def test_a_medium_absorbs_along_the_way_inside_it() -> None:
     assert color == tuple((REFLECTANCE + inside) * part for inside, part in zip(through, (1, 2, 4), strict=True))
 
 
+@pytest.mark.clause("REFR-1")
 def test_a_bubble_in_water_sees_water_outside() -> None:
     # Index 2 outside, index 1 inside the ball: the ratio is 1/2, the reflectance head on 1/9.
     materials = {
@@ -93,6 +102,7 @@ def test_a_bubble_in_water_sees_water_outside() -> None:
     assert color[0] == Fraction(1, 9)  # what is reflected meets the sky; what enters ends inside at depth 1
 
 
+@pytest.mark.clause("CAM-5", "REFR-7")
 def test_the_camera_in_a_medium_sees_the_absorbed_light() -> None:
     materials = {"water": {"dielectric": {"index_of_refraction": 2.0, "absorption": (0.125, 0.0, 0.0)}}, "glow": GLOW}
     objects = [square("glow", 3.0), sphere("water", (0.0, 0.0, -50.0))]
@@ -100,6 +110,7 @@ def test_the_camera_in_a_medium_sees_the_absorbed_light() -> None:
     assert color == (Fraction(3, 4), 2, 4)
 
 
+@pytest.mark.clause("REFR-2", "REFR-5")
 def test_total_reflection_sends_everything_back() -> None:
     # From within glass at 45°, whose sine is above 1/1.5: the square of the cosine is 1/2.
     scene = small_scene(
@@ -119,6 +130,7 @@ def turned_square(material: str, z: float) -> dict[str, Any]:
     return {**turned, "faces": tuple((a, c, b) for a, b, c in turned["faces"])}
 
 
+@pytest.mark.clause("ILL-1")
 def test_normals_are_turned_to_the_ray_and_tell_whether_it_enters() -> None:
     prepared = prepare(small_scene(), FLOAT)
     for z, direction, entering in ((5.0, -1.0, True), (0.0, -1.0, False), (0.0, 1.0, False), (-5.0, 1.0, True)):

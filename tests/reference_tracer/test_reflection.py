@@ -4,6 +4,8 @@ import pytest
 
 from reference_tracer.reflection import mirror_direction
 
+pytestmark = pytest.mark.clause("REFL-1")
+
 
 @pytest.mark.parametrize(
     ("direction", "mirrored"),

@@ -17,26 +17,31 @@ from tests.reference_tracer.kernels import exact_kernel
 NORMAL = (0.0, 0.0, 1.0)
 
 
+@pytest.mark.clause("REFR-3")
 def test_a_ray_along_the_normal_is_not_turned() -> None:
     assert refracted_direction((0.0, 0.0, -1.0), NORMAL, 1.0, 1.5, 1.5) == (0.0, 0.0, -1.0)
 
 
+@pytest.mark.clause("REFR-8")
 def test_equal_indices_neither_turn_nor_reflect() -> None:
     assert snell_discriminant(0.25, 1.0) == 0.0625
     assert fresnel_reflectance(0.25, 0.25, 1.0) == 0.0
 
 
+@pytest.mark.clause("REFR-2")
 def test_exactly_at_the_critical_angle_all_is_reflected_and_nothing_is_totally_reflected() -> None:
     cosine, ratio = Fraction(4, 5), Fraction(3, 5)  # sin θ = η
     assert exact_kernel().snell_discriminant(cosine, ratio) == 0
     assert exact_kernel().fresnel_reflectance(cosine, Fraction(0), ratio) == 1
 
 
+@pytest.mark.clause("REFR-4")
 def test_grazing_light_is_reflected() -> None:
     assert fresnel_reflectance(0.0, sqrt(1.25), 1.5) == 1.0
     assert fresnel_reflectance(0.0, 0.0, 1.0) == 1.0
 
 
+@pytest.mark.clause("REFR-4")
 @pytest.mark.parametrize("ratio", [1e-6, 1e-3, 0.5, 1 - 2**-30, 1 + 2**-30, 1.5, 1e3, 1e6])
 def test_head_on_reflectances_are_right_for_every_index(ratio: float) -> None:
     g = sqrt(snell_discriminant(1.0, ratio))
@@ -50,6 +55,7 @@ def test_head_on_reflectances_are_right_for_every_index(ratio: float) -> None:
         assert abs(fresnel_reflectance(1.0, g, ratio) - exact) <= exact * 32 * unit_roundoff + lost
 
 
+@pytest.mark.clause("REFR-4")
 def test_close_to_equal_indices_the_reflectance_keeps_its_digits() -> None:
     # Head on, η = 1 + ε: R = (ε/(2 + ε))², 7e-20 here, where (c - g)/(c + g) has lost half of its digits.
     ratio = 1.0 + 2.0**-31
@@ -58,6 +64,7 @@ def test_close_to_equal_indices_the_reflectance_keeps_its_digits() -> None:
     assert abs(computed - exact) <= 32 * 2.0**-53 * exact
 
 
+@pytest.mark.clause("REFR-7")
 def test_light_fades_exponentially_in_a_medium() -> None:
     assert medium_transmittance((0.0, 0.0, 0.0), 5.0) == (1.0, 1.0, 1.0)
     one, two, three = medium_transmittance((1.0, 2.0, 3.0), 0.5)

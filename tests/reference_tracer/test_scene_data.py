@@ -1,7 +1,11 @@
 from __future__ import annotations
 
+import pytest
+
 from reference_tracer import scene_data as layout
 from tests.reference_tracer.kernels import scene_data
+
+pytestmark = pytest.mark.clause("ARI-1")
 
 NOT_TABLES = {"NUMBER_OF_TABLES", "TYPE_CHECKING"}
 TABLES = [value for name, value in vars(layout).items() if name.isupper() and name not in NOT_TABLES]

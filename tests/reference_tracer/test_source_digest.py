@@ -1,6 +1,10 @@
 from __future__ import annotations
 
+import pytest
+
 from reference_tracer.source_digest import source_digest
+
+pytestmark = pytest.mark.clause("ARI-6")
 
 
 def test_a_digest_is_the_same_again_and_another_for_other_packages() -> None:

@@ -10,6 +10,7 @@ CENTER = (0.0, 0.0, 0.0)
 AHEAD = (1.0, 0.0, 0.0)
 
 
+@pytest.mark.clause("SPH-1", "SPH-3")
 @pytest.mark.parametrize(
     ("origin", "distance"),
     [
@@ -30,16 +31,19 @@ def test_the_smallest_positive_root_is_found(origin: tuple[float, float, float],
     assert sphere_distance(origin, AHEAD, CENTER, 1.0) == distance
 
 
+@pytest.mark.clause("SPH-1")
 def test_distances_are_in_units_of_the_directions_length() -> None:
     assert sphere_distance((-3.0, 0.0, 0.0), (0.25, 0.0, 0.0), CENTER, 1.0) == 8.0
 
 
+@pytest.mark.clause("SPH-1")
 def test_far_and_small_spheres_are_not_lost_to_cancellation() -> None:
     # The textbook's b² - 4ac cancels all digits here: 2^108 against 1.
     assert sphere_distance((-(2.0**54), 0.0, 0.0), AHEAD, CENTER, 1.0) == 2.0**54
     assert sphere_distance((-(2.0**54), 1.5, 0.0), AHEAD, CENTER, 1.0) == inf
 
 
+@pytest.mark.clause("SPH-4")
 def test_a_ray_that_starts_on_a_large_sphere_and_grazes_it_stays_near() -> None:
     # The origin is on the surface within rounding, and the ray nearly tangent: the true distance is below 0.02. The
     # quotient of constant and larger root was 2^21, more than the diameter.
@@ -51,6 +55,7 @@ def test_a_ray_that_starts_on_a_large_sphere_and_grazes_it_stays_near() -> None:
         assert distance < 0.02 or distance == inf
 
 
+@pytest.mark.clause("SPH-4")
 def test_the_other_side_is_the_other_end_of_the_chord() -> None:
     assert distance_to_other_side((-1.0, 0.0, 0.0), AHEAD, CENTER) == 2.0
     assert distance_to_other_side((-1.0, 0.0, 0.0), (2.0, 0.0, 0.0), CENTER) == 1.0
@@ -58,6 +63,7 @@ def test_the_other_side_is_the_other_end_of_the_chord() -> None:
     assert distance_to_other_side((0.0, 1.0, 0.0), AHEAD, CENTER) == inf
 
 
+@pytest.mark.clause("SPH-5")
 def test_the_normal_points_away_from_the_centre() -> None:
     assert sphere_normal((1.0, 2.0, 7.0), (1.0, 2.0, 3.0), 4.0) == (0.0, 0.0, 1.0)
     assert sphere_normal((1.0, 2.0, -1.0), (1.0, 2.0, 3.0), 4.0) == (0.0, 0.0, -1.0)

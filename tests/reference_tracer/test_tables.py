@@ -3,6 +3,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pytest
 
 from reference_tracer import scene_data as layout
 from reference_tracer.arithmetic import FLOAT, FLOAT32, FLOAT64
@@ -12,6 +13,8 @@ from tests.reference_tracer.small_scenes import lamp, small_scene, sphere, squar
 
 if TYPE_CHECKING:
     from scenes.scene import Scene
+
+pytestmark = pytest.mark.clause("SCN-6")
 
 
 def tables_of(scene: Scene) -> layout.SceneData:
@@ -31,6 +34,7 @@ def mixed_scene() -> Scene:
     )
 
 
+@pytest.mark.clause("TRAV-2")
 def test_spheres_and_triangles_keep_their_order() -> None:
     data = tables_of(mixed_scene())
     assert layout.vector_of(data, layout.SPHERE_CENTER, 1) == (5.0, 0.0, 0.0)
@@ -43,6 +47,7 @@ def test_spheres_and_triangles_keep_their_order() -> None:
     assert materials == ["white", "white"]
 
 
+@pytest.mark.clause("REFR-1")
 def test_media_know_what_is_outside_of_them() -> None:
     data = tables_of(mixed_scene())
     assert [layout.integer_of(data, layout.MATERIAL_OUTSIDE, row) for row in range(3)] == [1, -1, -1]
@@ -52,6 +57,7 @@ def test_media_know_what_is_outside_of_them() -> None:
     assert material_number(mixed_scene(), None) == -1
 
 
+@pytest.mark.clause("ILL-7")
 def test_each_light_has_its_falloff() -> None:
     data = tables_of(mixed_scene())
     assert [layout.integer_of(data, layout.LIGHT_FALLOFF, row) for row in range(2)] == [0, 2]
@@ -77,6 +83,7 @@ def test_many_triangles_get_a_tree_and_few_do_not() -> None:
     assert layout.rows_of(tables_of(many), layout.NODE_ORDER) == 40
 
 
+@pytest.mark.clause("ARI-1")
 def test_numbers_are_of_the_kernels_type() -> None:
     for arithmetic, number_type in ((FLOAT64, np.float64), (FLOAT32, np.float32)):
         data = build_tables(mixed_scene(), required_features(mixed_scene()), arithmetic)

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from math import floor
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -28,6 +29,7 @@ def board(size: float, offset: tuple[float, float], axes: tuple[int, int]) -> la
     )
 
 
+@pytest.mark.clause("TEX-1", "TEX-2")
 @given(
     st.tuples(*[st.integers(-20, 20).map(lambda n: n / 4)] * 3),
     st.sampled_from([0.25, 1.0, 2.0]),
@@ -47,6 +49,7 @@ def test_squares_alternate_and_belong_to_their_lower_left_borders(
     assert is_even_square(scene, 0, beside) != even  # type: ignore[arg-type] # a tuple of three, as point is
 
 
+@pytest.mark.clause("TEX-1")
 def test_a_material_without_a_checkerboard_has_one_colour() -> None:
     scene = board(1.0, (0.0, 0.0), (0, 2))
     assert textured(scene, layout.MATERIAL_DIFFUSE, layout.MATERIAL_DIFFUSE_BOARD, 0, (0.5, 0.5, 0.5)) == PLAIN

@@ -21,6 +21,8 @@ from reference_tracer.ties import (
 from reference_tracer.variants import PLAIN_FORMS
 from scenes.requirements import Feature
 
+pytestmark = pytest.mark.clause("ARI-3")
+
 DECIDING = {*COMPARISONS.values(), "floor"}
 # Their comparisons are of numbers of primitives, materials and rays, which are whole and so always decided.
 OF_WHOLE_NUMBERS = {"distance_to_sphere", "material_of", "radiance", "surface_normal", "textured"}

@@ -37,6 +37,7 @@ SCENE = scene_data(
 )
 
 
+@pytest.mark.clause("TRAV-1")
 @pytest.mark.parametrize(
     ("z", "left", "expected"),
     [
@@ -52,6 +53,7 @@ def test_the_nearest_primitive_is_hit(z: float, left: int, expected: tuple[float
     assert nearest_hit(SCENE, (0.0, 0.0, z), AHEAD, left) == expected
 
 
+@pytest.mark.clause("SPH-4", "TRI-3")
 def test_what_was_left_is_left_out_by_its_number_not_by_a_distance() -> None:
     # A point that rounding has moved by a thousandth: still nothing but the other side.
     assert distance_to_sphere(SCENE, (0.0, 0.0, 1.001), AHEAD, 0, 0) == 2.002
@@ -59,11 +61,13 @@ def test_what_was_left_is_left_out_by_its_number_not_by_a_distance() -> None:
     assert distance_to_triangle(SCENE, (0.0, 0.0, 3.5), AHEAD, 0, 1) == 0.5
 
 
+@pytest.mark.clause("SHAD-1")
 @pytest.mark.parametrize(("end", "occluded"), [(5.9, False), (6.0, False), (6.1, True), (inf, True)])
 def test_only_what_is_nearer_than_the_end_occludes(end: float, occluded: bool) -> None:
     assert is_occluded(SCENE, (0.0, 0.0, 9.0), AHEAD, NOTHING, end) == occluded
 
 
+@pytest.mark.clause("TRAV-3")
 def test_of_two_at_the_same_distance_the_first_is_hit() -> None:
     twins = scene_data(
         {
@@ -75,6 +79,7 @@ def test_of_two_at_the_same_distance_the_first_is_hit() -> None:
     assert nearest_hit(twins, (0.0, 0.0, 3.0), AHEAD, NOTHING) == (2.0, 0)
 
 
+@pytest.mark.clause("TRAV-2")
 @pytest.mark.parametrize(
     ("primitive", "material", "normal"),
     [(0, 7, (0.0, 0.0, 1.0)), (2, 2, (0.0, 0.0, 1.0)), (3, 3, (0.0, 0.0, -1.0))],

@@ -10,6 +10,7 @@ A, B, C = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 DOWN = (0.0, 0.0, -1.0)
 
 
+@pytest.mark.clause("TRI-1", "TRI-3")
 @pytest.mark.parametrize(
     ("x", "y", "hits"),
     [
@@ -35,23 +36,27 @@ def test_inside_and_edges_are_hit_from_both_sides(
     assert triangle_distance((x, y, -2.0), (0.0, 0.0, 1.0), a, b, c) == (2.0 if hits else inf)
 
 
+@pytest.mark.clause("TRI-1", "TRI-3")
 def test_what_lies_behind_or_at_the_origin_is_not_hit() -> None:
     assert triangle_distance((0.25, 0.25, -2.0), DOWN, A, B, C) == inf
     assert triangle_distance((0.25, 0.25, 0.0), DOWN, A, B, C) == inf
 
 
+@pytest.mark.clause("TRI-2")
 def test_a_ray_in_the_plane_and_a_triangle_of_no_area_miss() -> None:
     assert triangle_distance((-1.0, 0.25, 0.0), (1.0, 0.0, 0.0), A, B, C) == inf
     assert triangle_distance((0.5, 0.0, 2.0), DOWN, A, B, (0.5, 0.0, 0.0)) == inf
     assert triangle_distance((0.0, 0.0, 2.0), DOWN, A, A, A) == inf
 
 
+@pytest.mark.clause("TRAV-5")
 @pytest.mark.parametrize("scale", [2.0**-60, 1.0, 2.0**60])
 def test_no_scale_is_too_small(scale: float) -> None:
     b, c = (scale, 0.0, 0.0), (0.0, scale, 0.0)
     assert triangle_distance((scale / 4, scale / 4, scale), DOWN, A, b, c) == scale
 
 
+@pytest.mark.clause("TRI-4")
 def test_the_normal_points_to_where_the_corners_run_counterclockwise() -> None:
     assert triangle_normal(A, B, C) == (0.0, 0.0, 1.0)
     assert triangle_normal(A, C, B) == (0.0, 0.0, -1.0)

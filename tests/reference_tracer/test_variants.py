@@ -13,6 +13,8 @@ from scenes.requirements import Feature
 from tests.reference_tracer.kernels import ball_kernel, kept_precision
 from tests.reference_tracer.small_scenes import library_scene
 
+pytestmark = pytest.mark.clause("ARI-9")
+
 # Scenes without contacts or extremes, that together use all that a variant replaces.
 SCENES = ["whitted-1980", "glass-sphere", "total-reflection-prism", "trefoil-knot"]
 

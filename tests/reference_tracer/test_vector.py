@@ -13,6 +13,7 @@ from tests.reference_tracer.kernels import exact_kernel
 from tests.reproduction import note_case
 
 
+@pytest.mark.clause("ARI-1")
 @given(vectors(), vectors())
 def test_vectors_of_fractions_are_exact(a: Vector, b: Vector) -> None:
     p, q = exact(a), exact(b)
@@ -28,15 +29,18 @@ def test_vectors_of_fractions_are_exact(a: Vector, b: Vector) -> None:
     assert vector.along(p, q, factor) == plus(p, times(q, factor))
 
 
+@pytest.mark.clause("CAM-1")
 def test_the_axes_are_right_handed() -> None:
     assert vector.cross((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)) == (0.0, 0.0, 1.0)
 
 
+@pytest.mark.clause("CAM-1")
 @given(rational_unit_vectors())
 def test_the_unit_vector_of_a_multiple_is_the_unit_vector(unit: Exact) -> None:
     assert exact_kernel().normalize(times(unit, Fraction(3, 11))) == unit
 
 
+@pytest.mark.clause("CAM-3")
 @given(vectors().filter(any))
 def test_rounding_keeps_a_unit_vector_within_its_bound_of_unit_length(a: Vector) -> None:
     note_case(a=a)
@@ -44,6 +48,7 @@ def test_rounding_keeps_a_unit_vector_within_its_bound_of_unit_length(a: Vector)
     assert abs(dot(exact(normalize(a)), exact(normalize(a))) - 1) <= gamma(10)
 
 
+@pytest.mark.clause("NUM-1")
 def test_a_zero_vector_has_no_direction() -> None:
     with pytest.raises(ZeroDivisionError):
         normalize((0.0, 0.0, 0.0))

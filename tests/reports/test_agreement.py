@@ -3,6 +3,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import pytest
 
 from comparisons.images import write_image
 from comparisons.pixel_evidence import PixelEvidence, write_pixel_evidence
@@ -11,6 +12,8 @@ from reports.agreement import Agreement, agreement_on, confirming, in_one_line
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+pytestmark = pytest.mark.clause("REP-7")
 
 SIZE = (4, 6)
 TRUTH = 0.5

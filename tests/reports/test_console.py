@@ -11,6 +11,8 @@ from reports.loading import load_results
 from reports.wording import WORDINGS, capped, outcome
 from tests.reports.sample_results import write_sample
 
+pytestmark = pytest.mark.clause("REP-6")
+
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
@@ -80,6 +82,7 @@ def test_an_output_that_knows_only_ascii_gets_words(results: Results, terminal: 
     assert "closed_form" in printed(results, terminal=terminal, encoding="ascii")
 
 
+@pytest.mark.clause("REP-2")
 @pytest.mark.parametrize("terminal", [True, False])
 def test_untrusted_words_are_neither_markup_nor_terminal_escapes(results: Results, terminal: bool) -> None:
     hostile = "[red]\x1b]0;title\x07[/nothing]\r"

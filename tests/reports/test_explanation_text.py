@@ -1,8 +1,12 @@
 import re
 
+import pytest
+
 from reference_tracer.explanation import explain
 from reports.explanation_text import explanation_text
 from scenes.library import open_scene
+
+pytestmark = pytest.mark.clause("ARI-7")
 
 
 def test_the_text_has_one_block_a_ray_indented_by_its_level() -> None:
@@ -30,6 +34,7 @@ def test_formulas_follow_the_convention() -> None:
     assert "W/(m²·sr)" in radiometric
 
 
+@pytest.mark.clause("REP-2")
 def test_names_cannot_smuggle_terminal_escapes_in() -> None:
     scene = open_scene("single-sphere").model_copy(update={"name": "evil\x1b[2J"})
     assert "\x1b" not in explanation_text(explain(scene, 0, 0))

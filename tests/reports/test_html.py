@@ -10,6 +10,8 @@ from comparisons.images import write_image
 from reports.html import ReportError, write_html_report
 from tests.reports.sample_results import HOSTILE, noise, sample_document, sphere_image, write_sample
 
+pytestmark = pytest.mark.clause("REP-1")
+
 Change = Callable[[dict[str, Any]], object]
 
 
@@ -74,6 +76,7 @@ def test_nothing_on_the_page_is_fetched(directory: Path) -> None:
     assert "@import" not in page
 
 
+@pytest.mark.clause("REP-2")
 def test_no_string_of_the_results_can_become_markup(directory: Path) -> None:
     keep = frozenset({"verdict", "images", "log", "link"})
     log = next(directory.rglob("log.txt"))
@@ -146,6 +149,7 @@ def test_an_image_with_other_channels_is_told_in_its_cell(directory: Path) -> No
     assert "has one channel" in page_of(changed(directory, swap))
 
 
+@pytest.mark.clause("REP-2")
 def test_a_log_is_shown_from_its_end_without_terminal_escapes(directory: Path) -> None:
     page = page_of(directory)
     assert "Fatal: &lt;b&gt;fminimum&lt;/b&gt;" in page
@@ -155,6 +159,7 @@ def test_a_log_is_shown_from_its_end_without_terminal_escapes(directory: Path) -
     assert "\x07" not in page
 
 
+@pytest.mark.clause("REP-2")
 @pytest.mark.parametrize("outside", ["../secret.txt", "/etc/hostname", "a\0b"])
 def test_a_results_file_cannot_name_files_outside_its_directory(directory: Path, outside: str) -> None:
     (directory.parent / "secret.txt").write_text("the secret", encoding="utf-8")

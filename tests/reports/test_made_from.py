@@ -12,6 +12,8 @@ from tests.reports.sample_results import write_sample
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("REP-8")
+
 
 @pytest.fixture
 def directory(tmp_path: Path) -> Path:

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from reports import pictures
 from tests.reports.sample_results import noise, sphere_image
 
+pytestmark = pytest.mark.clause("REP-5")
+
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")  # colour-science says that it cannot plot without matplotlib; nothing here plots
     import colour
@@ -40,19 +42,24 @@ def constant(value: float) -> pictures.FloatImage:
     return np.full((2, 3, 3), value, dtype=np.float32)
 
 
-@pytest.mark.parametrize("light", [0.0, 0.001, 0.18, 0.5, 1.0])
-def test_tone_is_the_srgb_transfer_function_to_half_a_step(decode: Decoder, light: float) -> None:
-    expected = 255 * float(colour.models.eotf_inverse_sRGB(light))
-    picture = decode(pictures.tone_picture(constant(light)))
-    assert picture.shape == (2, 3, 3)
-    assert np.abs(picture - expected).max() <= 0.51  # half a step, and OpenImageIO's 7e-6 of its tabulated curve
+@pytest.mark.clause("OUT-3")
+def test_each_code_of_the_tone_is_the_nearest_to_the_srgb_transfer_function(decode: Decoder) -> None:
+    # Where the nearest code changes, and the eight floats on either side of it.
+    borders = colour.models.eotf_sRGB((np.arange(255) + 0.5) / 255).astype(np.float32)
+    light = np.concatenate([borders + step * np.spacing(borders) for step in range(-8, 9)]).astype(np.float32)
+    picture = decode(pictures.tone_picture(np.repeat(light[None, :, None], 3, axis=2)))
+    expected = np.rint(255 * colour.models.eotf_inverse_sRGB(light.astype(np.float64)))
+    assert picture.shape == (1, len(light), 3)
+    assert (picture == expected[None, :, None]).all()
 
 
+@pytest.mark.clause("OUT-3")
 def test_light_outside_the_range_is_clipped(decode: Decoder) -> None:
     assert (decode(pictures.tone_picture(constant(7.0))) == 255).all()
     assert (decode(pictures.tone_picture(constant(-1.0))) == 0).all()
 
 
+@pytest.mark.clause("OUT-3")
 @pytest.mark.parametrize("strange", [np.nan, np.inf, -np.inf])
 def test_what_is_not_a_finite_number_is_marked_in_every_picture(decode: Decoder, strange: float) -> None:
     image = sphere_image()
@@ -131,6 +138,7 @@ def test_the_sequential_scale_grows_in_lightness() -> None:
     assert (np.diff(lab(pictures._viridis(pictures._ramp()))[..., 0].ravel()) >= 0).all()
 
 
+@pytest.mark.clause("REP-4")
 @pytest.mark.parametrize("kind", [None, *MACHADO_KINDS])
 def test_a_mark_differs_from_every_colour_of_its_scale_for_colour_blind_eyes_too(kind: str | None) -> None:
     viridis, hatch = pictures._viridis(pictures._ramp()), np.array([pictures.HATCH])

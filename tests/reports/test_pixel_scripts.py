@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+pytestmark = pytest.mark.clause("REP-3")
+
 FAILING = 3
 """The place of the failing cell in the sample."""
 STOCHASTIC = 2

@@ -8,6 +8,8 @@ from scenes.bare_geometry import bare_geometry
 from scenes.library import library_names, open_scene
 from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("REN-2")
+
 
 @pytest.mark.parametrize("name", library_names())
 def test_it_is_a_dark_scene_of_one_diffuse_material_that_a_file_could_state(name: str) -> None:

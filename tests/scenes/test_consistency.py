@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
     from scenes.values import Vector
 
+pytestmark = pytest.mark.clause("SCN-1")
+
 PARALLEL = "camera.up: expected a vector that is not parallel to the view from position to look_at, found one that is; "
 NO_AREA = "expected three vertices that span an area, found them on one line."
 
@@ -26,11 +28,13 @@ def triangle_has_area(vertices: tuple[Vector, Vector, Vector]) -> bool:
     return not inconsistencies(parts_of(Scene.model_validate(scene)))
 
 
+@pytest.mark.clause("NUM-1")
 def test_looking_at_the_own_position_is_refused(tmp_path: Path) -> None:
     [problem] = problems(tmp_path, changed(("camera", "look_at"), [0, 1, 5]))
     assert problem.startswith("camera.look_at: expected a point other than the camera's position")
 
 
+@pytest.mark.clause("CAM-1")
 @pytest.mark.parametrize("up", [[0, -1, -5], [0, 0.1, 0.5], [0, 1e-5, 5e-5]])
 def test_an_up_vector_along_the_view_is_refused(tmp_path: Path, up: list[float]) -> None:
     scene = changed(("camera", "up"), [component * 1.0 for component in up])
@@ -81,6 +85,7 @@ def test_a_medium_whose_surroundings_run_in_a_circle_elsewhere_is_not_blamed(tmp
     assert not any("materials.drop" in problem for problem in problems(tmp_path, scene))
 
 
+@pytest.mark.clause("ILL-3")
 def test_the_radiometric_convention_has_no_classical_terms(tmp_path: Path) -> None:
     scene = changed(("convention",), "radiometric")
     scene["lights"][0]["falloff"] = "none"
@@ -109,6 +114,7 @@ def test_a_face_beyond_the_vertices_is_refused(tmp_path: Path) -> None:
     assert problem == "objects[2].faces[1]: expected vertex numbers from 0 to 3, found 4."
 
 
+@pytest.mark.clause("NUM-1")
 def test_triangles_without_area_are_refused(tmp_path: Path) -> None:
     scene = changed(("objects", 2, "faces", 1), [0, 1, 1])
     scene["objects"][1]["vertices"] = [[0, 0, 0], [0.25, 0.5, 1], [0.5, 1, 2]]
@@ -119,6 +125,7 @@ COORDINATES = st.floats(-1e12, 1e12, allow_subnormal=True)
 POINTS = st.tuples(COORDINATES, COORDINATES, COORDINATES)
 
 
+@pytest.mark.clause("NUM-1")
 @settings(deadline=None)  # the machine may be busy
 @given(POINTS, POINTS, POINTS | st.floats(-4, 4))
 def test_whether_a_triangle_has_area_is_decided_exactly(first: Vector, second: Vector, third: Vector | float) -> None:

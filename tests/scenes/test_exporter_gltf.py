@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("REN-2")
+
 GLTF_SCENES = [name for name in library_names() if refuses(open_scene(name)) is None]
 CAMERA: dict[str, Any] = {
     "position": (0.3, 1.2, 5.1),

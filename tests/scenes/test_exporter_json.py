@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("REN-2")
+
 values = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False) | st.text(),
     lambda inner: st.lists(inner) | st.dictionaries(st.text(), inner),

@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import OpenImageIO
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from scenes.scene import Scene
+
+pytestmark = pytest.mark.clause("REN-2")
 
 
 def export(scene: Scene, folder: Path, **options: Any) -> ElementTree.Element:

@@ -13,6 +13,8 @@ from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("REN-3")
+
 
 @pytest.mark.parametrize(
     ("changes", "word"),

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("REN-2")
+
 BLINN = {"specular": {"reflectance": (0.5, 0.4, 0.3), "exponent": 20.5, "model": "blinn"}}
 PHONG = {"specular": BLINN["specular"] | {"model": "phong"}}
 AMBIENT = {"ambient": {"reflectance": (0.01, 0.02, 1 / 3)}}

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
     Array = np.ndarray[Any, Any]
 
+pytestmark = pytest.mark.clause("REN-2")
+
 PBRT_SCENES = [name for name in library_names() if refuses(open_scene(name)) is None]
 CAMERA = {"position": (0.3, 1.2, 5.1), "look_at": (-0.2, 0.1, 0.4), "up": (0.2, 1.0, 0.1)}
 WIDE = CAMERA | {"projection": "perspective", "vertical_field_of_view": 41.0, "width": 9, "height": 5}

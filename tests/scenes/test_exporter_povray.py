@@ -18,6 +18,8 @@ from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, LAMP, MIRROR, POINT
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("REN-2")
+
 numbers = st.floats(allow_nan=False, allow_infinity=False)
 HIGHLIGHT = {"specular": {"reflectance": (0.5, 0.4, 0.3), "exponent": 20.5, "model": "phong"}}
 

@@ -9,6 +9,8 @@ import pytest
 from scenes.exporters.povray_limits import refuses
 from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, MIRROR, POINT, RED, SUN, build
 
+pytestmark = pytest.mark.clause("REN-3")
+
 POLYNOMIAL = POINT | {"falloff": {"constant": 1.0, "linear": 0.1, "quadratic": 0.1}}
 WEIGHTS = {"index_of_refraction": 1.5, "reflectance": (0.1, 0.1, 0.1), "transmittance": (0.9, 0.9, 0.9)}
 CORNERS = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))

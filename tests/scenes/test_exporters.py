@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("REN-3", "PRJ-2")
+
 DOCUMENT = (Path(__file__).parent.parent.parent / "docs" / "exporting.md").read_text(encoding="utf-8")
 
 # What a refusal names, and whether a scene has it.

@@ -14,6 +14,8 @@ from scenes.shapes import Mesh, Sphere, Triangle
 if TYPE_CHECKING:
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("SCN-7")
+
 SPECIFICATION = (Path(__file__).parents[2] / "docs" / "spec.md").read_text(encoding="utf-8")
 MEMBERS = [(name, parameter) for name, members in FAMILIES.items() for parameter in members.parameters]
 

@@ -16,6 +16,8 @@ from scenes.scene import Scene
 from scenes.shapes import Mesh, Sphere
 from tests.scenes.scene_files import valid_scene, write_scene
 
+pytestmark = pytest.mark.clause("SCN-5")
+
 SCENES = {name: open_scene(name) for name in library_names()}
 DIELECTRIC_MESHES = [
     pytest.param(shape, id=f"{name}-{index}")

@@ -5,6 +5,8 @@ import pytest
 from scenes.library import LIBRARY_FOLDER
 from scenes.library_meshes import MESH_FILES
 
+pytestmark = pytest.mark.clause("SCN-5")
+
 
 @pytest.mark.parametrize("name", MESH_FILES)
 def test_the_generator_makes_the_very_file_of_the_library(name: str) -> None:

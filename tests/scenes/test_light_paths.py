@@ -16,6 +16,8 @@ from tests.scenes.exporter_scenes import BALL, GLASS, LAMP, MIRROR, POINT, RED, 
 if TYPE_CHECKING:
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("SCN-8")
+
 DIRECT = "E(S?e|D[Le])"
 PATH = "E[DS]{{0,{depth}}}(L|e)"
 LETTERS = {"red": "D", "mirror": "S", "glass": "S", "lamp": "", "coated": "SD"}

@@ -16,6 +16,8 @@ from scenes.scene import Scene
 from scenes.shapes import Mesh
 from tests.scenes.scene_files import TETRAHEDRON, changed, loaded, problems, valid_scene, write_scene
 
+pytestmark = pytest.mark.clause("SCN-1", "SCN-2")
+
 JSON_VALUES = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8) | st.sampled_from(["red", "sphere"]),
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner, max_size=3),
@@ -108,6 +110,7 @@ def test_a_broken_material_is_not_unknown_as_well(tmp_path: Path) -> None:
     assert found == ["materials.red.diffuse.reflectance[2]: expected a number of at least 0, found -0.5."]
 
 
+@pytest.mark.clause("NUM-1")
 @pytest.mark.parametrize("literal", ["NaN", "Infinity", "-Infinity", "1e999"])
 def test_numbers_that_are_not_finite_are_refused_at_their_place(tmp_path: Path, literal: str) -> None:
     text = json.dumps(changed(("objects", 0, "center", 1), 12345)).replace("12345", literal)

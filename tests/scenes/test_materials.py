@@ -5,6 +5,8 @@ from pydantic import ValidationError
 
 from scenes.materials import CheckerboardColor, Diffuse, Material
 
+pytestmark = pytest.mark.clause("SCN-1")
+
 
 def test_a_material_states_a_term_that_is_not_null() -> None:
     with pytest.raises(ValidationError, match="expected at least one term"):

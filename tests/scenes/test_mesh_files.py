@@ -14,6 +14,8 @@ from tests.scenes.scene_files import TETRAHEDRON, changed, problems
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("SCN-2", "SCN-3")
+
 
 def mesh(name: str) -> Mesh:
     return Mesh(shape="mesh", file=name, material="red")

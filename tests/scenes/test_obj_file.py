@@ -9,6 +9,8 @@ from scenes.obj_file import read_obj
 from scenes.triangle_lists import MeshFileError
 from tests.scenes.scene_files import is_triangles_or_a_sentence
 
+pytestmark = pytest.mark.clause("SCN-2", "SCN-3")
+
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 
 

@@ -6,6 +6,8 @@ import pytest
 
 from tests.scenes.pbrt_grammar import GrammarError, parse
 
+pytestmark = pytest.mark.clause("REN-2")
+
 WORLD = "WorldBegin\n"
 # As people write them: values without brackets, whole numbers for floats, comments behind, several on a line.
 GOOD = [

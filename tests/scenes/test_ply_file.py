@@ -10,6 +10,8 @@ from scenes.ply_file import read_ply
 from scenes.triangle_lists import MeshFileError
 from tests.scenes.scene_files import is_triangles_or_a_sentence
 
+pytestmark = pytest.mark.clause("SCN-2", "SCN-3")
+
 POINTS = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.5)]
 
 

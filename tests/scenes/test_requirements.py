@@ -11,6 +11,8 @@ from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR
 if TYPE_CHECKING:
     from scenes.scene import Scene
 
+pytestmark = pytest.mark.clause("SCN-6")
+
 AMBIENT = {"ambient": {"reflectance": (0.1, 0.1, 0.1)}}
 PHONG = {"specular": {"reflectance": (0.5, 0.5, 0.5), "exponent": 9.0, "model": "phong"}}
 BLINN = {"specular": PHONG["specular"] | {"model": "blinn"}}

@@ -9,6 +9,8 @@ from scenes.library import LIBRARY_FOLDER, library_names
 from scenes.schema import json_schema
 from tests.scenes.scene_files import changed, valid_scene
 
+pytestmark = pytest.mark.clause("SCN-4")
+
 VALIDATOR = jsonschema.Draft202012Validator(json_schema())
 
 

@@ -8,6 +8,8 @@ from hypothesis import strategies as st
 
 from scenes.triangle_lists import LARGEST_FACE_COUNT, MeshFileError, check_coordinate, check_face_count, fan
 
+pytestmark = pytest.mark.clause("SCN-3")
+
 
 @settings(deadline=None)  # the machine may be busy
 @given(st.lists(st.integers(0, 99), min_size=3, max_size=9, unique=True))

@@ -9,6 +9,8 @@ from tests.scenes.scene_files import changed, problems, valid_scene
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("SCN-1")
+
 MISSING = "expected this key, found nothing; add it."
 OBJECT = {"shape": "sphere", "center": [0, 0, 0], "radius": 1, "material": "red"}
 

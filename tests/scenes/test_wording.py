@@ -1,9 +1,12 @@
 from __future__ import annotations
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scenes.wording import LONGEST_QUOTE, described, place, quoted, suggestion
+
+pytestmark = pytest.mark.clause("SCN-1")
 
 
 @settings(deadline=None)  # the machine may be busy

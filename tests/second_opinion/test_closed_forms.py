@@ -26,12 +26,45 @@ if TYPE_CHECKING:
 
     from tests.second_opinion.case import Case
 
+pytestmark = pytest.mark.clause("ARI-10")
+
 SEEDS = st.integers(0, 2**64 - 1)
 EVERY_FORM = pytest.mark.parametrize("form", CLOSED_FORMS, ids=lambda form: form.__name__)
 
 WITH_AN_EDGE = [form for form in CLOSED_FORMS if form(Random(0)).side is not None]
 
 
+@pytest.mark.clause(
+    "CAM-1",
+    "CAM-2",
+    "CAM-3",
+    "CAM-4",
+    "SPH-1",
+    "SPH-4",
+    "SPH-5",
+    "TRI-4",
+    "BG-1",
+    "BG-2",
+    "TEX-1",
+    "ILL-2",
+    "ILL-3",
+    "ILL-5",
+    "ILL-6",
+    "ILL-7",
+    "SHAD-1",
+    "SHAD-2",
+    "REFL-1",
+    "REFL-2",
+    "REFR-1",
+    "REFR-3",
+    "REFR-4",
+    "REFR-5",
+    "REFR-6",
+    "REFR-7",
+    "REFR-9",
+    "TREE-1",
+    "TREE-2",
+)
 @EVERY_FORM
 @given(seed=SEEDS)
 def test_the_closed_form_lies_in_the_certified_ball(form: Callable[[Random], Case], seed: int) -> None:
@@ -39,6 +72,7 @@ def test_the_closed_form_lies_in_the_certified_ball(form: Callable[[Random], Cas
     check(case, case.x, case.y)
 
 
+@pytest.mark.clause("SPH-2", "TRI-1", "SHAD-1", "SHAD-2", "REFR-2")
 @pytest.mark.parametrize("form", WITH_AN_EDGE, ids=lambda form: form.__name__)
 @given(seed=SEEDS)
 def test_neighbouring_floats_on_both_sides_of_an_edge_have_the_closed_form_of_their_side(
@@ -77,11 +111,13 @@ def edge_on_line(case: Case) -> tuple[float, float] | None:
     return low, high
 
 
+@pytest.mark.clause("PRJ-5")
 @pytest.mark.parametrize("form", WITH_AN_EDGE, ids=lambda form: form.__name__)
 def test_a_quarter_of_the_cases_with_an_edge_have_one_in_their_line(form: Callable[[Random], Case]) -> None:
     assert sum(edge_on_line(form(Random(seed))) is not None for seed in range(20)) >= 5
 
 
+@pytest.mark.clause("IMG-1")
 def test_a_pixel_is_seen_through_its_centre() -> None:
     """IMG-1: the cases themselves choose any point of the image."""
     case = sphere_in_parallel_projection(Random(1))

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from reference_tracer.scene_data import SceneData
     from scenes.requirements import Feature
 
+pytestmark = pytest.mark.clause("ARI-10")
+
 PIXELS = 20
 
 
