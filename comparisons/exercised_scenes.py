@@ -1,13 +1,27 @@
-"""Which scenes of the library run which functions of the tracer."""
+"""Which scenes exercise a clause: those that kill its faults, or may do so."""
 
 from __future__ import annotations
 
-import ast
 from collections import defaultdict
+from typing import TYPE_CHECKING
 
-from reference_tracer.instantiation import COMPILED_ENTRY_POINTS, kernel_source
+from comparisons.kill_results import RESULTS_FILE, read_kill_results
+from reference_tracer.instantiation import functions_of
 from scenes.library import library_names, open_scene
 from scenes.requirements import required_features
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def scenes_by_fault(directory: Path) -> dict[str, tuple[str, ...]]:
+    """The scenes that killed each fault when `raytruth faults` last wrote to this results directory; {} if never.
+
+    Raises ValueError for a results file that is damaged.
+    """
+    if not (directory / RESULTS_FILE).is_file():
+        return {}
+    return {fault.name: fault.killed_by for fault in read_kill_results(directory).faults}
 
 
 def scenes_by_function() -> dict[str | None, tuple[str, ...]]:
@@ -15,8 +29,6 @@ def scenes_by_function() -> dict[str | None, tuple[str, ...]]:
     found: dict[str | None, list[str]] = defaultdict(list)
     for name in library_names():
         found[None].append(name)
-        source, _ = kernel_source(required_features(open_scene(name)), entry_points=COMPILED_ENTRY_POINTS)
-        for statement in ast.parse(source).body:
-            if isinstance(statement, ast.FunctionDef):
-                found[statement.name].append(name)
+        for function in functions_of(frozenset(required_features(open_scene(name)))):
+            found[function].append(name)
     return {function: tuple(names) for function, names in found.items()}

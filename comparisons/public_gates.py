@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from skimage.metrics import structural_similarity
 
-from comparisons.output_model import srgb_encoded
+from comparisons.srgb import srgb_encoded
 
 if TYPE_CHECKING:
     from collections.abc import Callable

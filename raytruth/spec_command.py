@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from comparisons.clauses import TESTS, SourceError
-from comparisons.exercised_scenes import scenes_by_function
+from comparisons.exercised_scenes import scenes_by_fault, scenes_by_function
 from comparisons.traceability import TABLE, table_text, traceability
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time
@@ -22,7 +22,12 @@ UNCOVERED = 1
 ROOT = Path(__file__).parents[1]
 
 
-def spec(*, write: Annotated[bool, Parameter(negative="")] = False, as_json: AsJson = False) -> int:
+def spec(
+    *,
+    write: Annotated[bool, Parameter(negative="")] = False,
+    results: Path = Path("results"),
+    as_json: AsJson = False,
+) -> int:
     """Show which tests, scenes and faults hold each clause, and what is missing.
 
     Exit status 1 if a clause has no test, one of the specification no fault, or a test no clause; and if the committed
@@ -32,6 +37,9 @@ def spec(*, write: Annotated[bool, Parameter(negative="")] = False, as_json: AsJ
     ----------
     write
         Write the table docs/traceability.md anew.
+    results
+        Where `raytruth faults` wrote its results: a clause's scenes are those that killed a fault of it. For faults
+        that have none there, they are those whose kernel holds the function that the fault replaces.
     as_json
         Print one JSON document instead of text.
     """
@@ -45,8 +53,7 @@ def spec(*, write: Annotated[bool, Parameter(negative="")] = False, as_json: AsJ
     except SourceError as error:
         raise UsageError(f"{error}.") from error
     with progress("Looking for the scenes of each clause"):
-        scenes = scenes_by_function()
-    rows = [(trace, _scenes(trace, scenes)) for trace in found.traces]
+        rows = _with_scenes(found.traces, results)
     if as_json:
         print_json(
             {
@@ -75,6 +82,21 @@ def spec(*, write: Annotated[bool, Parameter(negative="")] = False, as_json: AsJ
     return UNCOVERED if found.findings else 0
 
 
-def _scenes(trace: Trace, by_function: dict[str | None, tuple[str, ...]]) -> list[str]:
-    """The library's scenes whose kernel holds a function that some fault of the clause replaces."""
-    return sorted({name for fault in trace.faults for name in by_function.get(fault.function, ())})
+def _with_scenes(traces: tuple[Trace, ...], results: Path) -> list[tuple[Trace, list[str]]]:
+    """Each clause and the scenes that exercise it."""
+    try:
+        killing = scenes_by_fault(results)
+    except (OSError, ValueError) as error:
+        raise UsageError(
+            f"{results}: the results of the kill matrix cannot be read; run raytruth faults again."
+        ) from error
+    holding = scenes_by_function()
+    return [
+        (
+            trace,
+            sorted(
+                {name for fault in trace.faults for name in killing.get(fault.name) or holding.get(fault.function, ())}
+            ),
+        )
+        for trace in traces
+    ]

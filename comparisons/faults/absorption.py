@@ -1,4 +1,4 @@
-"""Faults of absorption in media (docs/spec.md, REFR-7)."""
+"""Faults of absorption in media (docs/spec.md, REFR-7 and REFR-9)."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ def absorption_there_and_back(absorption: Vector, distance: Scalar) -> Vector:
     )
 
 
-@fault("REFR-7", "medium_beyond", "In which medium is a ray that has left the glass?")
+@fault("REFR-9", "medium_beyond", "In which medium is a ray that has left the glass?")
 def medium_never_left(scene: SceneData, material: int, entering: bool) -> int:
     """A ray that has entered a medium stays in it for ever."""
     return material
 
 
-@fault("REFR-7", "medium_beyond", "On which side of its surface is the glass?")
+@fault("REFR-9", "medium_beyond", "On which side of its surface is the glass?")
 def media_exchanged(scene: SceneData, material: int, entering: bool) -> int:
     """The media on both sides of a surface are exchanged."""
     return integer_of(scene, MATERIAL_OUTSIDE, material) if entering else material

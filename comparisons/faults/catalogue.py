@@ -11,6 +11,7 @@ from comparisons.faults import (
     background,
     camera,
     depth,
+    exactness,
     fresnel,
     highlights,
     lights,
@@ -53,6 +54,7 @@ TOPICS = (
     traversal,
     output,
     numerics,
+    exactness,
 )
 
 

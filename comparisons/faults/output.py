@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from comparisons.faults.fault import Array, output_fault
-from comparisons.output_model import OutputModel, srgb_decoded, srgb_encoded
+from comparisons.output_model import OutputModel
+from comparisons.srgb import srgb_decoded, srgb_encoded
 
 BYTES = OutputModel("uint8", "sRGB", clipped=True)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from comparisons.faults.fault import fault
 from reference_tracer.camera import camera_frame, primary_ray
 from reference_tracer.features import PERSPECTIVE
+from reference_tracer.image import radiance_at
 from reference_tracer.ray_tree import radiance
 from reference_tracer.scene_data import (
     CAMERA_MEDIUM,
@@ -16,7 +17,7 @@ from reference_tracer.scene_data import (
     integer_of,
 )
 from reference_tracer.traversal import NOTHING, nearest_hit
-from reference_tracer.vector import add, along, dot, normalize
+from reference_tracer.vector import add, along, dot, normalize, scale
 
 if TYPE_CHECKING:
     from reference_tracer.camera import Frame
@@ -55,3 +56,22 @@ def depth_along_the_axis(scene: SceneData, first: int, end: int, depths: Table, 
             distance, primitive = nearest_hit(scene, origin, direction, NOTHING)
             depths[line, column] = distance * dot(direction, forward)
             primitives[line, column] = primitive
+
+
+@fault("IMG-2", "render_rows", "How many points has a pixel?")
+def mean_over_one_too_many(scene: SceneData, samples: int, first: int, end: int, image: Table) -> None:
+    """The sum over the points of a pixel is divided by one more than there are."""
+    frame = camera_frame(scene)
+    step = 1.0 / float(samples)
+    for line in range(first, end):
+        for column in range(integer_of(scene, CAMERA_SIZE, 0)):
+            total = (0.0, 0.0, 0.0)
+            for i in range(samples):
+                for j in range(samples):
+                    x = float(column) + (float(i) + 0.5) * step
+                    y = float(line) + (float(j) + 0.5) * step
+                    total = add(total, radiance_at(scene, frame, x, y))
+            mean = scale(total, 1.0 / float(samples * samples + 1))
+            image[line, column, 0] = mean[0]
+            image[line, column, 1] = mean[1]
+            image[line, column, 2] = mean[2]

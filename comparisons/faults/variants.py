@@ -14,7 +14,8 @@ import numpy as np
 from comparisons.error_model import ErrorModel, RayOffset
 from comparisons.faults import other_formulas, other_searches, other_starts
 from comparisons.faults.fault import STUDENT, Array, Finish, Function, Subject, subjects_in
-from comparisons.output_model import OutputModel, srgb_decoded, srgb_encoded
+from comparisons.output_model import OutputModel
+from comparisons.srgb import srgb_decoded, srgb_encoded
 from reference_tracer.variants import VARIANTS
 
 if TYPE_CHECKING:

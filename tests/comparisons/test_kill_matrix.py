@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
     from reference_tracer.numbers import Vector
 
+pytestmark = pytest.mark.clause("VER-12")
+
 
 @pytest.fixture(autouse=True)
 def keep_precision() -> Iterator[None]:

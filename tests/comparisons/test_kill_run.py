@@ -4,6 +4,7 @@ import json
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pytest
 
 from comparisons import kill_run
 from comparisons.faults.catalogue import all_faults
@@ -15,7 +16,7 @@ from comparisons.kill_run import kill_results, run_kills, write_kill_results
 if TYPE_CHECKING:
     from pathlib import Path
 
-    import pytest
+pytestmark = pytest.mark.clause("VER-12", "RES-3")
 
 FAULT, OTHER = list(all_faults())[:2]
 VARIANT = next(iter(all_variants()))

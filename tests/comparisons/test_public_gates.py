@@ -5,6 +5,8 @@ import pytest
 
 from comparisons.public_gates import GATES, as_picture, gates_that_reject
 
+pytestmark = pytest.mark.clause("VER-11")
+
 TRUTH = np.random.default_rng(7).uniform(0.05, 0.95, (16, 20, 3))
 TRUTH.flags.writeable = False
 

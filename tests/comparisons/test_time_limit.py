@@ -6,6 +6,8 @@ import pytest
 
 from comparisons.time_limit import TookTooLongError, cpu_seconds
 
+pytestmark = pytest.mark.clause("REN-1")
+
 
 def test_what_does_not_end_is_ended() -> None:
     with pytest.raises(TookTooLongError, match=r"more than 0\.05 s of processor time"):

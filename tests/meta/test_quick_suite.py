@@ -18,6 +18,8 @@ from tests.reference_tracer.kernels import kept_precision
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+pytestmark = pytest.mark.clause("VER-12")
+
 PAGE = (Path(__file__).parents[2] / "docs" / "kill-matrix.md").read_text(encoding="utf-8")
 # Triangles with a tree of boxes, several kinds of lights, mirrors: cheap scenes that between them need most functions.
 CHEAP = ("cornell-box", "several-lights-sphere", "blinn-sphere", "coloured-mirrors", "camera-in-tea")

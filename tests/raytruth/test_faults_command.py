@@ -3,6 +3,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
+import pytest
+
 from comparisons import kill_run
 from comparisons.faults.catalogue import all_faults
 from comparisons.faults.variants import all_variants
@@ -12,7 +14,7 @@ from tests.raytruth.running import refusal, run
 if TYPE_CHECKING:
     from pathlib import Path
 
-    import pytest
+pytestmark = pytest.mark.clause("CMD-1", "CMD-2", "CMD-4")
 
 
 def keep(out: Path, *, survivor: str = "", flagged: str = "") -> None:

@@ -22,7 +22,8 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text, encoding="utf-8")
     monkeypatch.setattr(spec_command, "ROOT", tmp_path)
-    monkeypatch.setattr(spec_command, "scenes_by_function", lambda: {None: ("x", "y"), "f": ("y",)})
+    monkeypatch.setattr(spec_command, "scenes_by_function", lambda: {None: ("x", "y"), "f": ("y",), "g": ()})
+    monkeypatch.setattr(spec_command, "scenes_by_fault", lambda _: {"two": ("killer",)})
     return tmp_path
 
 
@@ -32,7 +33,7 @@ def test_the_table_is_written_and_then_nothing_is_missing(project: Path, capsys:
     assert err.splitlines()[-1] == "raytruth: docs/traceability.md is out of date: run `raytruth spec --write`."
     status, out, err = run(capsys, "spec", "--write")
     assert status == 0
-    assert out.splitlines() == ["A-1\t1\t1\tone", "A-2\t1\t0\ttwo", "P-1\t1\t0\t"]
+    assert out.splitlines() == ["A-1\t1\t1\tone", "A-2\t1\t1\ttwo", "P-1\t1\t0\t"]
     assert "raytruth:" not in err
     assert (project / TABLE).is_file()
     assert run(capsys, "spec")[0] == 0
@@ -58,6 +59,7 @@ def test_json_tells_tests_scenes_and_faults_of_each_clause(capsys: pytest.Captur
         "scenes": ["y"],
         "faults": ["one"],
     }
+    assert told["clauses"][1]["scenes"] == ["killer"]
     assert [clause["id"] for clause in told["clauses"]] == ["A-1", "A-2", "P-1"]
 
 

@@ -12,6 +12,8 @@ from reports.kills import SHADES, gate_counts, margin, print_kills, shade, summa
 if TYPE_CHECKING:
     from pathlib import Path
 
+pytestmark = pytest.mark.clause("REP-1", "REP-2")
+
 
 def fault(name: str, margins: dict[str, float | None], **changes: object) -> FaultResult:
     killed_by = tuple(scene for scene, value in margins.items() if value is None or value > 1)

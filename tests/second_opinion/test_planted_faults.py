@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from tests.second_opinion.case import Case
 
+pytestmark = pytest.mark.clause("ARI-10")
+
 
 def of_catalogue(name: str) -> tuple[Callable[..., Any], str]:
     """A fault of the catalogue and the function that it replaces."""
