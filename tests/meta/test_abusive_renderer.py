@@ -11,7 +11,7 @@ import pytest
 
 from comparisons import matrix
 from comparisons.cell import CELL_FILE, LOG_FILE, TRUTH_FILE, CellPlace
-from comparisons.matrix import PlannedCell, run_scene
+from comparisons.matrix import PlannedCell, make_truth, run_cells
 from comparisons.results import Verdict
 from tests.comparisons.test_isolation import assert_ends, children
 from tests.meta.abusive_renderer import LOG_LIMIT, MISDEEDS, AbusiveRenderer
@@ -48,7 +48,8 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Aftermath:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(matrix, "open_scene", lambda _: scene)
         patch.setattr(matrix, "all_renderers", lambda: {"abusive": AbusiveRenderer()})
-        cells = {cell.integrator: cell for cell in run_scene("small", planned, directory)}
+        assert make_truth("small", directory) == []
+        cells = {cell.integrator: cell for cell in run_cells("small", planned, directory)}
     temporary = set(Path(tempfile.gettempdir()).glob("tmp*")) - temporary_before
     return Aftermath(directory, cells, temporary, children() - children_before)
 
