@@ -183,8 +183,14 @@ def test_no_pixel_of_a_library_scene_needs_more_than_it_gets(
 ) -> None:
     monkeypatch.setenv("RAYTRUTH_CACHE", str(tmp_path))
     image = certified_image(library_scene(name, 12, 9))
-    assert image.undecided == {}
-    assert image.radius.max() <= TWO_ROUNDINGS * largest_value([image])
+    reasons = {undecided.explanation for undecided in image.undecided.values()}
+    # Where two spheres coincide the tie is the point.
+    ties = {"the ray meets two spheres at exactly the same distance"} if name == "coincident-spheres" else set()
+    assert reasons == ties
+    decided = [
+        image.radius[line, column] for line in range(9) for column in range(12) if (column, line) not in image.undecided
+    ]
+    assert np.max(decided) <= TWO_ROUNDINGS * largest_value([image])
 
 
 def test_enclosures_are_equal_by_value() -> None:
