@@ -16,6 +16,7 @@ from comparisons.kill_run import kill_results, run_kills, write_kill_results
 from comparisons.quick_suite import write_quick_scenes
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene
+from reports.html import REPORT_FILE, write_html_report
 from reports.kills import print_kills, write_kill_report
 from scenes.library import library_names
 
@@ -64,6 +65,8 @@ def faults(
     results = kill_results(kills, time.perf_counter() - start)
     write_kill_results(out, results)
     page = write_kill_report(out)
+    if (out / REPORT_FILE).exists():
+        write_html_report(out, unless_current=True)  # which then leads to the page of the faults
     if write_quick:
         write_quick_scenes(results.quick)
     if as_json:

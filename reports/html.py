@@ -19,6 +19,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from reports import pictures, wording
 from reports.agreement import Agreement, agreement_on, in_one_line
 from reports.figures import Album, Figure, SharedPicture, cell_figures, data_uri
+from reports.kills import PAGE_FILE
 from reports.loading import ReportError, load_results, read_log
 from reports.made_from import is_made_from, made_from
 from reports.pixel_scripts import FOLDER, PixelView, write_pixel_script
@@ -128,6 +129,7 @@ def _render_page(directory: Path, results: Results, pixels: Path, source: str) -
         },
         script=script,
         style=style,
+        kills_page=PAGE_FILE if (directory / PAGE_FILE).exists() else None,
         script_hash=base64.b64encode(hashlib.sha256(script.encode()).digest()).decode(),
     )
 

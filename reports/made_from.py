@@ -6,6 +6,7 @@ import hashlib
 from pathlib import Path
 
 from comparisons.results import RESULTS_FILE
+from reports.kills import PAGE_FILE
 
 OURS = Path(__file__).parent
 # The digest stands in the head of the page.
@@ -13,8 +14,9 @@ _HEAD_BYTES = 4096
 
 
 def made_from(directory: Path) -> str:
-    """Of results.json, the names, sizes and times of the cells' files, and the code and templates of reports."""
+    """Of results.json, whether there is a kill matrix, names, sizes and times of the cells' files, and our own code."""
     digest = hashlib.sha256((directory / RESULTS_FILE).read_bytes())
+    digest.update(str((directory / PAGE_FILE).exists()).encode())
     for path in sorted((directory / "cells").rglob("*")):
         status = path.stat()
         digest.update(f"{path.relative_to(directory)} {status.st_size} {status.st_mtime_ns}\n".encode())

@@ -8,6 +8,7 @@ import pytest
 
 from comparisons.images import write_image
 from reports.html import ReportError, write_html_report
+from reports.kills import PAGE_FILE
 from tests.reports.sample_results import HOSTILE, noise, sample_document, sphere_image, write_sample
 
 pytestmark = pytest.mark.clause("REP-1")
@@ -58,6 +59,13 @@ def test_the_report_is_one_page_with_a_folder_of_pixels_in_the_results_directory
 def test_the_report_is_a_function_of_the_results_alone(directory: Path) -> None:
     first = page_of(directory), pixel_scripts(directory)
     assert (page_of(directory), pixel_scripts(directory)) == first
+
+
+def test_the_report_leads_to_the_kill_matrix_where_there_is_one(directory: Path) -> None:
+    link = f'href="{PAGE_FILE}"'
+    assert link not in write_html_report(directory).read_text(encoding="utf-8")
+    (directory / PAGE_FILE).write_text("", encoding="utf-8")
+    assert link in write_html_report(directory, unless_current=True).read_text(encoding="utf-8")
 
 
 def test_scripts_of_cells_that_are_gone_go_too(directory: Path) -> None:
