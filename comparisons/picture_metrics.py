@@ -26,6 +26,8 @@ SECONDS_A_PIXEL = 1e-3
 LIBRARY_BYTES = 4 << 30
 BYTES_A_PIXEL = 50 * 3 * 8
 
+MEASURED_FILE = "measured.jsonl"
+
 
 def picture_metrics(pairs: Sequence[tuple[Image, Image]]) -> list[dict[str, float | None]]:
     """For each pair of a render and the truth the measures `ssim`, `delta_e_2000` and `flip`, as far as they exist.
@@ -49,6 +51,7 @@ def picture_metrics(pairs: Sequence[tuple[Image, Image]]) -> list[dict[str, floa
 def _run_worker(folder: Path, numbers: range, pairs: Sequence[tuple[Image, Image]]) -> None:
     pixels = [pairs[number][0][..., 0].size for number in numbers]
     command = [sys.executable, "-P", str(WORKER), *map(str, numbers)]
+    (folder / MEASURED_FILE).touch()  # what was there before stays there when a run fails
     try:
         run_isolated(
             command,
@@ -62,9 +65,7 @@ def _run_worker(folder: Path, numbers: range, pairs: Sequence[tuple[Image, Image
 
 def _read_measured(folder: Path, measured: list[dict[str, float | None]], first: int) -> int:
     """Take over what the worker measured; the number of the pair to go on with: that behind the one that failed."""
-    path = folder / "measured.jsonl"
-    if not path.exists():
-        return len(measured)  # it did not even start, and will not next time
+    path = folder / MEASURED_FILE
     for line in path.read_text(encoding="utf-8").split("\n")[
         :-1
     ]:  # behind the last line end stands nothing, or half a line

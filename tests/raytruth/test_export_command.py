@@ -60,8 +60,8 @@ def test_export_writes_a_povray_scene_and_tells_how_to_render_it(
     assert status == 0
     assert f"povray {file} +W160 +H120" in out
     assert "#version 3.7;" in file.read_text(encoding="utf-8")
-    refused = refusal(capsys, "scenes", "export", "bubble-in-glass", "--to", "povray", "--out", str(tmp_path / "no"))
-    assert "cannot be written for POV-Ray, because POV-Ray 3.7 finds no Fresnel" in refused
+    refused = refusal(capsys, "scenes", "export", "camera-in-tea", "--to", "povray", "--out", str(tmp_path / "no"))
+    assert "cannot be written for POV-Ray, because a dielectric's outside is not the object around it" in refused
 
 
 def test_export_leaves_other_files_of_the_folder_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
