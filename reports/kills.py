@@ -22,6 +22,9 @@ PAGE_FILE = "faults.html"
 SHADES = 5
 """Of the heat map: how many times further from passing, in steps of a factor of 100."""
 
+LARGEST_TOLD = 1e9
+"""A margin beyond this is no more telling: where black is due the tolerance is next to nothing."""
+
 
 def summary(results: KillResults) -> str:
     """One sentence."""
@@ -73,7 +76,9 @@ def _state(fault: FaultResult) -> str:
 
 def margin(value: float | None) -> str:
     """In tolerances, to two digits; infinite where there is none."""
-    return "∞" if value is None else f"{value:.2g}"
+    if value is None:
+        return "∞"
+    return f"{value:.2g}" if value <= LARGEST_TOLD else f">{LARGEST_TOLD:.0e}".replace("e+0", "e")
 
 
 def quick_seconds(results: KillResults) -> float:

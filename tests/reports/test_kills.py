@@ -84,4 +84,4 @@ def test_a_shade_darker_is_a_hundred_times_farther(value: float | None, step: in
 
 
 def test_margins_have_two_digits() -> None:
-    assert [margin(value) for value in (None, 0.123, 98765.0)] == ["∞", "0.12", "9.9e+04"]
+    assert [margin(value) for value in (None, 0.123, 98765.0, 2e9)] == ["∞", "0.12", "9.9e+04", ">1e9"]
