@@ -77,7 +77,7 @@ def run_cell(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidenc
 def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence, folder: Path) -> Cell:
     try:
         rendering = renderer.render(evidence.scene, place.integrator, depth, evidence.rays, folder)
-        _check_sizes(rendering, _integrator(renderer, place.integrator).gives, evidence.truth)
+        _check_sizes(rendering, integrator_of(renderer, place.integrator).gives, evidence.truth)
     except RendererError as error:
         log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
         return Cell(**_names(place), version=place.version, verdict=Verdict.ERROR, reason=str(error), log=log)
@@ -96,7 +96,7 @@ def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence
             log=log,
         )
     truth = f"cells/{place.scene}/{TRUTH_FILE}"
-    if _integrator(renderer, place.integrator).follows == "light paths":
+    if integrator_of(renderer, place.integrator).follows == "light paths":
         evidence = of_pixel_areas(evidence)
         truth = f"{place.folder}/{AREA_MEANS_FILE}"
         write_image(folder / AREA_MEANS_FILE, evidence.truth.astype(np.float32))
@@ -144,7 +144,8 @@ def _names(place: CellPlace) -> dict[str, str]:
     }
 
 
-def _integrator(renderer: Renderer, name: str) -> Integrator:
+def integrator_of(renderer: Renderer, name: str) -> Integrator:
+    """The renderer's integrator of that name."""
     return next(known for known in renderer.integrators if known.name == name)
 
 

@@ -4,18 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pydantic import BaseModel, ConfigDict
+from comparisons.results import Record
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 RESULTS_FILE = "faults.json"
-
-
-class Record(BaseModel):
-    """Strict and immutable."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class SubjectResult(Record):

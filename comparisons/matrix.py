@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.cell import CELL_FILE, TRUTH_FILE, CellPlace, run_cell
+from comparisons.cell import CELL_FILE, TRUTH_FILE, CellPlace, integrator_of, run_cell
 from comparisons.cell_key import cell_key
 from comparisons.comparability import depth_or_reason
 from comparisons.feasible_set import feasible_set
@@ -156,11 +156,10 @@ def run_cells(source: str, planned: Sequence[PlannedCell], directory: Path) -> l
     """The feasible set of one scene and one error model, then every cell that is judged by it."""
     scene = open_scene(source)
     renderers = [all_renderers()[cell.place.renderer] for cell in planned]
-    integrators = [
-        next(known for known in renderer.integrators if known.name == cell.place.integrator)
+    has_image = any(
+        integrator_of(renderer, cell.place.integrator).gives != "first hits"
         for cell, renderer in zip(planned, renderers, strict=True)
-    ]
-    has_image = any(integrator.gives != "first hits" for integrator in integrators)
+    )
     feasible = feasible_set(scene, renderers[0].error_model, with_colors=has_image)
     evidence = Evidence(scene, _truth(scene), Rays(*primary_rays(scene)), feasible)
     return [

@@ -65,7 +65,7 @@ def run(
     out
         The results directory; an earlier run's cells are kept, and taken over where nothing has changed.
     jobs
-        How many scenes are worked on side by side; one a processor by default.
+        How many processes work side by side; one a processor by default.
     waivers
         A JSON file of known failures that do not make the run fail, besides those that raytruth knows itself.
     fresh
