@@ -1,6 +1,6 @@
 # Everything a person needs: `make` lists it. Recipes use relative paths only, so that any folder will do.
 .DEFAULT_GOAL := help
-.PHONY: help run test test-deep lint bench clean
+.PHONY: help run test test-deep mutants lint bench clean
 
 # `make run PYTHON=/path/to/python` chooses the interpreter; else tools/make_environment.sh finds one.
 export PYTHON
@@ -18,6 +18,9 @@ test: lint ## Check style and types, and run all tests
 
 test-deep: .venv/test.stamp ## Run the properties with 10,000 random examples each, and the long simulations
 	.venv/bin/pytest -n $(WORKERS) --dist worksteal --hypothesis-profile deep -m "hypothesis or simulation"
+
+mutants: .venv/test.stamp ## Judge all mutants of the tracer's physics that has changed, by the tests and by the matrix
+	.venv/bin/python -m tests.mutation
 
 lint: .venv/test.stamp ## Check style and types only
 	.venv/bin/ruff check .

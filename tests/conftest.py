@@ -6,7 +6,7 @@ import signal
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, Phase, settings
 
 from comparisons.clauses import PROMISES, SPECIFICATION, all_clauses
 
@@ -21,6 +21,11 @@ settings.register_profile(
     print_blob=True,
     suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow],
 )
+# For mutants it is enough that an example fails: it need not be the smallest. Tests that are not about the mutated file
+# have fewer, since most of the time is spent on what they do not find.
+WITHOUT_SHRINKING = (Phase.explicit, Phase.generate)
+settings.register_profile("mutants", settings.get_profile("fast"), phases=WITHOUT_SHRINKING)
+settings.register_profile("mutants-elsewhere", settings.get_profile("mutants"), max_examples=25)
 settings.load_profile("fast")
 
 # A shell that starts us in the background has us ignore interruptions, and so would all that the tests start.

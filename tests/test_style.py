@@ -45,7 +45,7 @@ REGISTRY_HOSTS = ["py" + "pi.org", "python" + "hosted.org", "crates" + ".io", "n
 MACHINE_PATH = re.compile(r"(?<![\w.}])/(work|root|home|Users)/\w")
 
 # Folders of tests that look at more than one source folder.
-TESTS_BY_PURPOSE = {"properties", "extremes", "second_opinion", "meta", "browser"}
+TESTS_BY_PURPOSE = {"properties", "extremes", "second_opinion", "meta", "mutation", "browser"}
 
 
 def tracked_text_files() -> list[Path]:

@@ -6,7 +6,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from reference_tracer.bounding_volume import box_is_missed, farthest, rounding_allowance
+from reference_tracer.bounding_volume import box_is_missed, certainly_zero, farthest, rounding_allowance
 
 pytestmark = pytest.mark.clause("TRAV-4")
 
@@ -20,6 +20,8 @@ ALONG_X = (1.0, 0.0, 0.0)
         ((-3.0, 0.0, 0.0), inf, False),
         ((-3.0, 1.0, 1.0), inf, False),  # along an edge
         ((-3.0, 1.0 + 2.0**-52, 0.0), inf, True),
+        ((-3.0, -1.25, 0.0), inf, True),  # beside it by less than 1
+        ((-3.0, 0.0, 1.25), inf, True),
         ((0.0, 0.0, 0.0), inf, False),
         ((3.0, 0.0, 0.0), inf, True),
         ((1.0, 0.0, 0.0), inf, False),  # leaves at the start
@@ -39,6 +41,11 @@ def test_a_flat_box_is_touched() -> None:
     assert not box_is_missed((-3.0, 0.0, 0.0), ALONG_X, (0.0, -1.0, -1.0), (0.0, 1.0, 1.0), inf)
 
 
+@pytest.mark.parametrize(("number", "is_zero"), [(0.0, True), (-0.0, True), (5e-324, False), (-5e-324, False)])
+def test_only_zeros_of_both_signs_are_zero(number: float, is_zero: bool) -> None:
+    assert certainly_zero(number) == is_zero
+
+
 def test_the_allowance_covers_ten_roundings_of_float32() -> None:
     unit_roundoff = Fraction(1, 2**24)
     allowance = Fraction(float(np.float32(rounding_allowance())))
@@ -48,4 +55,6 @@ def test_the_allowance_covers_ten_roundings_of_float32() -> None:
 def test_the_farthest_coordinate_is_that_of_a_corner_in_front_or_behind() -> None:
     assert farthest((-3.0, -1.0, 0.5), (-2.0, 1.5, 2.0)) == 3.0
     assert farthest((-3.0, -1.0, 0.5), (-2.0, 4.5, 2.0)) == 4.5
+    assert farthest((-3.0, -1.0, 0.5), (5.0, 4.5, 2.0)) == 5.0
+    assert farthest((-3.0, -1.0, 0.5), (-2.0, 1.5, 6.0)) == 6.0
     assert farthest((1.0, 1.0, -7.0), (2.0, 4.5, -6.0)) == 7.0

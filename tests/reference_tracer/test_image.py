@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from reference_tracer.arithmetic import FLOAT
-from reference_tracer.rendering import prepare, render
+from reference_tracer.rendering import first_hits, prepare, render
 from tests.reference_tracer.kernels import EXACT
 from tests.reference_tracer.small_scenes import small_scene, square
 
@@ -61,3 +61,15 @@ def test_first_hits_are_distances_and_numbers_of_primitives() -> None:
     assert primitives.tolist() == [[0, 0, -1]]  # the rays pass the centre at -0.5, 0.5 and 1.5
     assert depths[0, 0] == depths[0, 1]
     assert depths[0, 2] == np.inf
+
+
+@pytest.mark.clause("IMG-4", "CAM-2")
+def test_first_hits_are_those_of_rays_through_the_centres_of_pixels() -> None:
+    # The plane z = x + 2y, on which every pixel of four columns and three rows has a distance of its own.
+    corners = [(x, y, x + 2 * y) for x, y in ((-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0))]
+    slope = {"shape": "mesh", "vertices": corners, "faces": ((0, 1, 2), (0, 2, 3)), "material": "white"}
+    scene = small_scene(width=4, height=3, extent=3.0, camera={"position": (0.0, 0.0, 64.0)}, objects=[slope])
+    depths, _ = first_hits(prepare(scene, EXACT))
+    columns, lines = np.meshgrid(np.arange(4), np.arange(3))
+    x, y = columns + Fraction(1, 2) - 2, Fraction(3, 2) - (lines + Fraction(1, 2))
+    assert (depths == 64 - (x + 2 * y)).all()

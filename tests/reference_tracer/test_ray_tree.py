@@ -125,6 +125,22 @@ def test_total_reflection_sends_everything_back() -> None:
     assert tuple(color) == (1.0, 2.0, 4.0)
 
 
+@pytest.mark.clause("REFR-2", "REFR-6")
+def test_at_exactly_the_critical_angle_light_is_split() -> None:
+    # From within index 5/4, with the cosine 3/5: g² = (4/5)² - 1 + (3/5)² is 0. With constant weights that shows.
+    glass = {"index_of_refraction": 1.25, "reflectance": (0.5, 0.25, 0.125), "transmittance": (0.25, 0.5, 0.5)}
+    camera = {"position": (4.0, 0.0, 3.0), "look_at": (0.0, 0.0, 0.0), "inside": "glass"}
+    color = pixel(
+        {"glass": {"dielectric": glass}},
+        [turned_square("glass", -1.0)],
+        camera=camera,
+        projection="orthographic",
+        max_depth=1,
+        **SKY,
+    )
+    assert color == (Fraction(3, 4), Fraction(3, 2), Fraction(5, 2))
+
+
 def turned_square(material: str, z: float) -> dict[str, Any]:
     turned = square(material, z)
     return {**turned, "faces": tuple((a, c, b) for a, b, c in turned["faces"])}
@@ -140,3 +156,10 @@ def test_normals_are_turned_to_the_ray_and_tell_whether_it_enters() -> None:
         assert point == (0.0, 0.0, z + distance * direction)
         assert normal[2] == -direction
         assert enters == entering
+
+
+@pytest.mark.clause("ILL-1")
+def test_a_ray_that_exactly_grazes_a_sphere_leaves_it() -> None:
+    prepared = prepare(small_scene(), FLOAT)
+    point, normal, enters = surface_at(prepared.data, (-3.0, 1.0, 0.0), (1.0, 0.0, 0.0), 3.0, 0)
+    assert (point, normal, enters) == ((0.0, 1.0, 0.0), (0.0, -1.0, 0.0), False)

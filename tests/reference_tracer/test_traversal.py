@@ -26,13 +26,14 @@ SCENE = scene_data(
         layout.TRIANGLE_A: [(-9.0, -9.0, -2.0), (-9.0, -9.0, 3.0)],
         layout.TRIANGLE_B: [(9.0, -9.0, -2.0), (0.0, 9.0, 3.0)],
         layout.TRIANGLE_C: [(0.0, 9.0, -2.0), (9.0, -9.0, 3.0)],
-        layout.TRIANGLE_MATERIAL: [2, 3],
         layout.NODE_LOW: [(-9.0, -9.0, -2.0)],
         layout.NODE_HIGH: [(9.0, 9.0, 3.0)],
         layout.NODE_END: [1],
         layout.NODE_FIRST_TRIANGLE: [0],
         layout.NODE_TRIANGLES: [2],
         layout.NODE_ORDER: [1, 0],
+        # Not behind the spheres' materials, so that none of these is taken for one of them and is right by chance.
+        layout.TRIANGLE_MATERIAL: [2, 3],
     }
 )
 
