@@ -85,8 +85,6 @@ def feasible_set(
     pixels = [(column, line) for line in range(scene.camera.height) for column in range(scene.camera.width)]
     with ctx.workprec(ctx.prec):  # both ways of following rays set it
         plain = PixelEvaluator(PlainRays(scene, error_model, overrides), bound, FLOAT32_BITS)
-        # A rasteriser's model tells of first hits alone.
-        with_colors = with_colors and error_model.rasterisation is None
         colors: list[_Colors | None] = []
         hits = []
         for pixel in pixels:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from comparisons.depth_interpolation import depth_errors, movement_in_space, window_error
+from comparisons.depth_interpolation import depth_errors
+from comparisons.drawn_pieces import movement_in_space, window_error
 from comparisons.view_volume import half_extent, homogeneous_corners, view_volume
 from tests.comparisons.drawn_triangles import (
     ORTHOGRAPHIC,
