@@ -120,7 +120,8 @@ class DrawnPieces:
     @cached_property
     def extent(self) -> Array:
         """In x and in y, in pixels, shape (m, 2)."""
-        return np.abs(_edges(self.places)).max(axis=1) + 2 * self.moved[:, np.newaxis]
+        extent: Array = np.abs(_edges(self.places)).max(axis=1) + 2 * self.moved[:, np.newaxis]
+        return extent
 
     @cached_property
     def exact_double_area(self) -> Array:
@@ -131,13 +132,15 @@ class DrawnPieces:
     @cached_property
     def double_area(self) -> Array:
         """Twice the least area in the window, in square pixels; not above 0 where nothing is known of it."""
-        return self.exact_double_area - 4 * self.moved * self.extent.sum(axis=1)
+        least: Array = self.exact_double_area - 4 * self.moved * self.extent.sum(axis=1)
+        return least
 
     @cached_property
     def shape(self) -> Array:
         """κ, twice the extents' product over twice the area: 2 at least."""
         with np.errstate(divide="ignore"):
-            return 2 * self.extent.prod(axis=1) / self.double_area
+            shape: Array = 2 * self.extent.prod(axis=1) / self.double_area
+        return shape
 
     @cached_property
     def is_bounded(self) -> NDArray[np.bool_]:
@@ -147,7 +150,8 @@ class DrawnPieces:
     def beyond(self, snapping: float) -> Array:
         """The largest sum of absolute barycentric coordinates of pixels' centres that count: 1, and more outside."""
         with np.errstate(divide="ignore"):
-            return 1 + 6 * (snapping + self.moved) * self.extent.sum(axis=1) / self.double_area
+            beyond: Array = 1 + 6 * (snapping + self.moved) * self.extent.sum(axis=1) / self.double_area
+        return beyond
 
     def plane_error(self, values: Array, beyond: Array) -> Array:
         """How far what is interpolated from the corners' values, of shape (m, 3), may be off.

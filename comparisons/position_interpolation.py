@@ -72,7 +72,7 @@ def _of_weights(inverse: Array, beyond: Array) -> tuple[Array, Array]:
     """
     outside = (beyond - 1) / 2
     least, largest = inverse.min(axis=1), inverse.max(axis=1)
-    sums = (1 + outside) * least - outside * largest
+    sums: Array = (1 + outside) * least - outside * largest
     return sums, 1 + 2 * outside * largest / sums
 
 
@@ -90,8 +90,8 @@ def _interpolation_error(
 
 def _quotient_error(pieces: DrawnPieces, values: Array, beyond: Array) -> Array:
     """Of what is interpolated, and rounded before."""
-    error: Array = pieces.plane_error(values, beyond)
-    return error + QUOTIENT_ROUNDOFFS * ROUNDOFF * beyond * np.abs(values).max(axis=1)
+    rounded_before: Array = QUOTIENT_ROUNDOFFS * ROUNDOFF * beyond * np.abs(values).max(axis=1)
+    return pieces.plane_error(values, beyond) + rounded_before
 
 
 def _may_turn(pieces: DrawnPieces, snapping: float) -> Array:
@@ -100,5 +100,5 @@ def _may_turn(pieces: DrawnPieces, snapping: float) -> Array:
     Each coordinate of an edge changes by 2δ at most, so that twice the area changes by 4δ(X + Y) + 8δ² at most.
     """
     change = snapping + pieces.moved
-    largest = 4 * change * pieces.extent.sum(axis=1) + 8 * change**2
+    largest: Array = 4 * change * pieces.extent.sum(axis=1) + 8 * change**2
     return np.where(pieces.exact_double_area > largest, 0.0, 1.0)

@@ -1,12 +1,12 @@
 """How VTK lights what llvmpipe draws, in terms of the tracer's own equation.
 
 VTK evaluates the classical equation at each fragment in float32, in view coordinates (vtkOpenGLPolyDataMapper.cxx,
-ReplaceShaderNormal and ReplaceShaderLight). Here the tracer's own source is evaluated in balls; what VTK has that is off
-by its own rounding is widened by as much: the position of the fragment (position_interpolation.py), the normal, the
+ReplaceShaderNormal and ReplaceShaderLight). Here the tracer's own source is evaluated in balls; what VTK has that is
+off by its own rounding is widened by as much: the position of the fragment (position_interpolation.py), the normal, the
 cosines, the power function. Widths are of cubes that hold those in view coordinates however the camera is turned.
 
-The functions here are overrides, as in ray_offsets.py. They keep the shadows that the truth has and VTK has not: a scene
-is compared only where there are none (scenes/hidden_lights.py), and were that wrong, VTK would fail.
+The functions here are overrides, as in ray_offsets.py. They keep the shadows that the truth has and VTK has not: a
+scene is compared only where there are none (scenes/hidden_lights.py), and were that wrong, VTK would fail.
 """
 
 from __future__ import annotations
@@ -55,13 +55,13 @@ if TYPE_CHECKING:
 NORMAL_ROUNDOFFS = 32
 # Of a light's position in view coordinates 1, and of the difference from the fragment 1; √3 times along an axis.
 LIGHT_ROUNDOFFS = 4
-# Unit vectors are off by 5 roundoffs of 1, by their normalisation; a mirrored one by 8 more; a scalar product has 3 more
-# of each term, and these sum up to 1 at most.
+# The unit vectors to a light and to the viewer are off by 5 roundoffs of 1, by their normalisation. Their product with
+# the normal, or with each other, has 3 more. A mirrored l - 2(n·l)n is off by 5 of l, twice 8 of the product, and 3.
 COSINE_ROUNDOFFS = 32
-# The power function is exp2(n · log2(x)) (Mesa, lp_bld_arit.c). Its log2 has a polynomial of degree 4 in the square of
-# (m - 1)/(m + 1), m the mantissa, that is off by 0.34 roundoffs, and 8 by rounding; then 1 of the sum with the exponent,
-# and 2 of the product with the rounded n. VTK takes no cosine below 1e-5, so that |log2(x)| is 16.7 at most. In all 59
-# times n, times ln 2 of the result.
+# The power function is exp2(n·log2(x)) (Mesa, lp_bld_arit.c). Its log2 has a polynomial of degree 4 in the square of
+# (m - 1)/(m + 1), m the mantissa, that is off by 0.34 roundoffs, and 8 by rounding; then 1 of the sum with the
+# exponent, and 2 of the product with the rounded n. VTK takes no cosine below 1e-5, so that |log2(x)| is 16.7 at most.
+# In all 59 times n, times ln 2 of the result.
 POWER_ROUNDOFFS = 41
 # Its exp2 has a polynomial of degree 5 in the fraction, that is off by 2.5 roundoffs; 1 of the fraction, 8 of six sums
 # and products of which the first ones count little, 1 of the last product.
@@ -220,14 +220,13 @@ def shadowed_by_any_triangle(
             if light_is_near:
                 if distance < 1.0:
                     return True
-            else:
-                if distance < inf:
-                    return True
+            elif distance < inf:
+                return True
     return False
 
 
 def drawn_highlight(normal: Vector, direction: Vector, toward_light: Vector, exponent: Scalar) -> Scalar:
     """(r·v)^n by VTK's least cosine and Mesa's power function."""
     cosine = dot(mirror_direction(direction, normal), toward_light) + cosine_spread
-    highlight = max(cosine, least_cosine) ** exponent
+    highlight: Scalar = max(cosine, least_cosine) ** exponent
     return highlight * (1.0 + (exponent * power_spread + exponential_spread))

@@ -8,7 +8,8 @@ point of a triangle that the camera can see if, for each other triangle, one of 
 - the first one and the light lie on one side of the other one's plane;
 - a plane through the light and an edge of one of them separates the two.
 
-Where none does, the light may still not be hidden: then nothing is proved.
+Nor is a light hidden from anything that is seen if it is where all rays of the camera start. Where nothing of this
+holds, the light may still not be hidden: then nothing is proved.
 """
 
 from __future__ import annotations
@@ -49,6 +50,8 @@ def may_be_hidden(scene: Scene) -> str | None:
     whole = _WholeNumbers(scene)
     for number, light in enumerate(scene.lights):
         toward = whole.light(light)
+        if toward == whole.viewer and toward[1] == 1:
+            continue
         for receiver in lit:
             hiding = _first_that_may_hide(whole, toward, receiver)
             if hiding is not None:
@@ -105,6 +108,7 @@ class _WholeNumbers:
         points = [self._scaled(corner) for corner in corners]
         self.triangles: list[Triangle] = [(points[i], points[i + 1], points[i + 2]) for i in range(0, len(points), 3)]
         self.viewer = (self._scaled(camera.position), 1)
+        """Where all rays of the camera start, or the direction against which they go."""
         if camera.projection == "orthographic":
             factor = _denominator((*camera.position, *camera.look_at))
             toward = [

@@ -126,8 +126,8 @@ def _job(scene: Scene) -> Job:
 def _first_hits(scene: Scene, rays: Rays, result: dict[str, NDArray[Any]]) -> FirstHits:
     """The distance along a ray is the depth over the cosine between it and the forward direction.
 
-    VTK draws normals in view coordinates, turned to the viewer. They are put on the side of VTK's normal of the triangle
-    that it says it has drawn.
+    VTK draws normals in view coordinates, turned to the viewer. They are put on the side of VTK's normal of the
+    triangle that it says it has drawn.
     """
     primitive = result["primitive"]
     missed = primitive < 0
@@ -143,9 +143,7 @@ def _first_hits(scene: Scene, rays: Rays, result: dict[str, NDArray[Any]]) -> Fi
     return FirstHits(distance, position, normal, primitive)
 
 
-def _run(
-    job: Job, triangles: NDArray[np.float64], surface: NDArray[np.int64], folder: Path
-) -> dict[str, NDArray[Any]]:
+def _run(job: Job, triangles: NDArray[np.float64], surface: NDArray[np.int64], folder: Path) -> dict[str, NDArray[Any]]:
     """The worker's arrays, of the right shapes; a result of an earlier run is not taken for its own."""
     (folder / RESULT_FILE).unlink(missing_ok=True)
     (folder / JOB_FILE).write_text(job.model_dump_json(indent=2), encoding="utf-8")

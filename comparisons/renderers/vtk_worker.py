@@ -22,9 +22,7 @@ from comparisons.renderers.vtk_window import Window
 Array = NDArray[Any]
 
 # Without any, VTK's shader has no normals.
-BLACK_LAMP = Lamp(
-    position=None, direction=(0.0, 0.0, -1.0), color=(0.0, 0.0, 0.0), attenuation=(1.0, 0.0, 0.0)
-)
+BLACK_LAMP = Lamp(position=None, direction=(0.0, 0.0, -1.0), color=(0.0, 0.0, 0.0), attenuation=(1.0, 0.0, 0.0))
 
 
 def main() -> None:
