@@ -99,6 +99,31 @@ def depth_plane(triangle: NDArray[np.float32], xs: NDArray[np.float32], ys: NDAr
         return np.asarray(at_origin + slope_x * xs + slope_y * ys)
 
 
+def view_corners(scene: Scene) -> NDArray[np.float32]:
+    """Corners in view coordinates, z forward, by a float32 matrix; shape (n, 3, 3)."""
+    rows = np.array(camera_axes(scene))
+    matrix = np.column_stack([rows, -rows @ np.array(scene.camera.position)]).astype(F)
+    points = triangles_of_scene(scene).astype(F)
+    moved = matrix[:, 0] * points[..., :1] + matrix[:, 1] * points[..., 1:2]
+    return np.asarray((moved + matrix[:, 2] * points[..., 2:]) + matrix[:, 3])
+
+
+def drawn_positions(
+    scene: Scene, triangle: int, xs: NDArray[np.float32], ys: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """Where llvmpipe's formulas put the fragments of a triangle, in view coordinates, all in float32."""
+    window, view = window_corners(scene)[triangle], view_corners(scene)[triangle]
+    inverse = F(1) / view[:, 2] if scene.camera.projection == "perspective" else np.ones(3, dtype=F)
+
+    def plane(values: NDArray[np.float32]) -> NDArray[np.float32]:
+        return depth_plane(np.column_stack([window[:, :2], values]), xs, ys)
+
+    w = F(1) / plane(inverse)
+    positions = np.stack([plane(view[:, axis] * inverse) * w for axis in range(3)], axis=-1)
+    assert positions.dtype == F
+    return positions
+
+
 def first_hits_of(scene: Scene, buffer: NDArray[np.float32], primitive: NDArray[np.int64]) -> FirstHits:
     """What a z-buffer and numbers of triangles tell."""
     volume = view_volume(scene)

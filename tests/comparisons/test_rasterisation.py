@@ -40,7 +40,6 @@ def test_what_float32_draws_is_feasible_and_hardly_a_pixel_is_ambiguous(projecti
     assert judged.compared == feasible.hit_primitives[..., 0].size
     assert judged.ambiguous < judged.compared / 20
     assert (feasible.hit_primitives >= 0).any(axis=2).sum() > judged.compared / 20
-    assert feasible.outcomes.max() == 0  # its colours are not modelled
 
 
 @PROJECTIONS
