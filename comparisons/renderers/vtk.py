@@ -35,7 +35,7 @@ SUBPIXEL_BITS = 8
 DEPTH_BITS = 24
 # An operation of the lighting equation stands for up to three of VTK's, which squares a distance that it has taken the
 # root of, and sums light before it takes the surface's colour times it.
-PRECISION_BITS = 22
+LIGHT_BITS = 22
 
 # Drawing takes milliseconds, starting Python and VTK some seconds; a hang must not stop a run for long.
 TIME_LIMIT = 60.0
@@ -66,8 +66,8 @@ class Vtk:
     integrators = (FIRST_HITS, LOCAL)
     error_model = ErrorModel(
         description="triangles drawn and lit in float32 (VTK 9.7 with Mesa's llvmpipe)",
-        precision_bits=PRECISION_BITS,
-        rasterisation=Rasterisation(SUBPIXEL_BITS, DEPTH_BITS),
+        precision_bits=24,
+        rasterisation=Rasterisation(SUBPIXEL_BITS, DEPTH_BITS, LIGHT_BITS),
     )
     install = "pip install pyvista, and Mesa's software renderer: apt-get install libegl1 libgl1-mesa-dri"
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.renderer import FirstHits, Rays
-from comparisons.view_volume import camera_axes, half_extent, view_volume
+from comparisons.view_volume import camera_axes, half_extent, homogeneous_corners, view_volume
 from reference_tracer.rendering import primary_rays
 from scenes.exporters.triangle_soup import triangles_of_scene
 from tests.scenes.exporter_scenes import build
@@ -74,6 +74,17 @@ def window_corners(scene: Scene) -> NDArray[np.float32]:
     window: NDArray[np.float32] = clip[..., :3] * (F(1) / clip[..., 3:]) * half + half
     assert window.dtype == F
     return window
+
+
+def exact_corners(scene: Scene) -> NDArray[np.float64]:
+    """Places in the window and depths there, in float64."""
+    corners, volume = homogeneous_corners(scene), view_volume(scene)
+    size = np.array([scene.camera.width, scene.camera.height])
+    places = (corners[..., :2] / corners[..., 2:3] * [1, -1] + 1) * size / 2
+    depth = (corners[..., 3] - volume.near) / (volume.far - volume.near)
+    if scene.camera.projection == "perspective":
+        depth *= volume.far / corners[..., 3]
+    return np.asarray(np.concatenate([places, depth[..., np.newaxis]], axis=-1))
 
 
 def covered(

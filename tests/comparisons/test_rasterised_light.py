@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2", "ILL-1", "ILL-2", "ILL-5")]
 
-MODEL = ErrorModel("", 22, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=24))
+MODEL = ErrorModel("", 24, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=24, light_bits=22))
 SCENES = {
     "plates": plates(lights=[BEHIND | {"position": (0.4, 1.7, 3.1)}, BEHIND, SUN]),
     "physical light": radiometric_plates(CAMERA),
@@ -131,8 +131,8 @@ def unturned_surface(scene: Any, origin: Any, direction: Any, distance: Any, pri
 
 def a_little_more_light(
     scene: Any,  # noqa: ARG001 - the signature of the function it stands for
-    material: int,  # noqa: ARG001
-    point: Any,  # noqa: ARG001
+    material: int,  # noqa: ARG001 - as above
+    point: Any,  # noqa: ARG001 - as above
 ) -> Any:
     return (0.43043, 0.61, 0.29)
 
@@ -147,7 +147,7 @@ def halfway_phong(normal: Any, direction: Any, toward_light: Any, exponent: Any)
     return max(cosine, 0.0) ** exponent
 
 
-def no_light(*arguments: Any) -> Any:  # noqa: ARG001
+def no_light(*arguments: Any) -> Any:  # noqa: ARG001 - as above
     return (0.0, 0.0, 0.0)
 
 
