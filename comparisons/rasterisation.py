@@ -10,8 +10,8 @@ rays moved to the side by as much as the corners are. So a pixel is a bundle of 
 through the bundle is it open what it shows.
 
 The depth is that of the plane through the corners, which float32 has rounded but nothing snapped, at c. How it is
-interpolated and kept loses a little more (depth_interpolation.py). The functions here that say so are overrides, as in
-ray_offsets.py.
+interpolated and kept loses a little more (depth_interpolation.py). What is drawn is lit, as rasterised_light.py says.
+The functions here are overrides, as in ray_offsets.py.
 """
 
 from __future__ import annotations

@@ -61,13 +61,11 @@ def may_be_hidden(scene: Scene) -> str | None:
 
 def _first_that_may_hide(whole: _WholeNumbers, light: Homogeneous, receiver: int) -> int | None:
     """The number of a triangle, which is not proved to hide nothing of this light from the receiver."""
-    lit = whole.triangles[receiver]
-    plane = _plane(*lit)
+    lit, plane = whole.triangles[receiver], whole.planes[receiver]
     lit_side = _side(plane, light)
     if lit_side * _side(plane, whole.viewer) <= 0:
         return None
-    for number, other in enumerate(whole.triangles):
-        others_plane = _plane(*other)
+    for number, (other, others_plane) in enumerate(zip(whole.triangles, whole.planes, strict=True)):
         if number == receiver or others_plane[0] == (0, 0, 0):  # nothing meets a triangle without area (TRI-2)
             continue
         if all(lit_side * _side(plane, (corner, 1)) <= 0 for corner in other):
@@ -107,6 +105,7 @@ class _WholeNumbers:
         self._factor = _denominator(value for point in (*corners, *positions, camera.position) for value in point)
         points = [self._scaled(corner) for corner in corners]
         self.triangles: list[Triangle] = [(points[i], points[i + 1], points[i + 2]) for i in range(0, len(points), 3)]
+        self.planes = [_plane(*corners) for corners in self.triangles]
         self.viewer = (self._scaled(camera.position), 1)
         """Where all rays of the camera start, or the direction against which they go."""
         if camera.projection == "orthographic":

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from scenes.scene import Scene
 
 BLACK: Vector = (0.0, 0.0, 0.0)
+# VTK's shader has each in a piece of its own; with 100 it was not compiled in a minute.
+MOST_LIGHTS = 32
 # vtkProperty::SetSpecularPower clamps it.
 LARGEST_EXPONENT = 128.0
 # A smaller one makes more than a roundoff of 1 of VTK's least cosine, which stands for all below and for 0.
@@ -39,6 +41,10 @@ def refused_light(scene: Scene) -> str | None:
     """Why VTK's light is not the scene's, in one clause; None if it is. The scene is one of triangles."""
     if isinstance(scene.background, GradientBackground):
         return "its background changes with the ray, and VTK's with the place in the picture"
+    if len(scene.lights) > MOST_LIGHTS:
+        return (
+            f"it has {len(scene.lights)} lights, and VTK's shader takes too long to compile for more than {MOST_LIGHTS}"
+        )
     for material in used_materials(scene):
         refusal = _refused_material(material, scene)
         if refusal is not None:

@@ -11,7 +11,14 @@ import pytest
 from comparisons.comparability import depth_or_reason
 from comparisons.renderers import vtk as adapter
 from comparisons.renderers.vtk import LOCAL, Vtk
-from comparisons.renderers.vtk_light import LARGEST_EXPONENT, LEAST_EXPONENT, lamps_of, refused_light, surfaces_of
+from comparisons.renderers.vtk_light import (
+    LARGEST_EXPONENT,
+    LEAST_EXPONENT,
+    MOST_LIGHTS,
+    lamps_of,
+    refused_light,
+    surfaces_of,
+)
 from comparisons.results import Verdict
 from scenes.library import open_scene
 from tests.comparisons.drawn_triangles import PERSPECTIVE
@@ -215,6 +222,7 @@ def test_light_that_vtk_lacks_is_refused() -> None:
         "camera's position": plates(camera=PARALLEL),
         "place in the picture": plates(background={"bottom": (0.1, 0.1, 0.1), "top": (0.2, 0.3, 0.4)}),
         "checkerboard": plates(materials={"m": {"emission": {"radiance": BOARD}}, "n": DULL}),
+        "too long to compile": plates(lights=[POINT] * (MOST_LIGHTS + 1)),
         "may brighten": plates(lights=[FADING | {"falloff": {"constant": 0.1, "linear": 0.1, "quadratic": 0.01}}]),
         "no spheres": build(objects=[BALL]),
         "light paths ES": plates(materials={"m": MIRROR, "n": DULL}, max_depth=2, lights=[BEHIND]),
