@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from comparisons.output_model import OutputModel
@@ -56,17 +56,20 @@ class RayOffset:
 
 @dataclass(frozen=True)
 class Rasterisation:
-    """How triangles are drawn with a z-buffer; what that may do to first hits is derived in rasterisation.py."""
+    """How triangles are drawn with a z-buffer; what that may do to a pixel is derived in rasterisation.py."""
 
     subpixel_bits: int
     """Corners are snapped to 2^-subpixel_bits of a pixel to tell what they cover."""
     depth_bits: int
     """Depths are kept to 2^-depth_bits of the way from the near to the far plane (view_volume.py)."""
+    light_bits: int
+    """As `precision_bits` of the error model, of the lighting equation: slack for another order of it included."""
 
     def in_words(self) -> str:
         """One clause."""
         grid = f"with corners snapped to 2^-{self.subpixel_bits} of a pixel"
-        return f"triangles {grid}, in a z-buffer of {self.depth_bits} bits between planes tight around what is seen"
+        buffer = f"in a z-buffer of {self.depth_bits} bits between planes tight around what is seen"
+        return f"triangles {grid}, {buffer}; an operation of their light errs by at most 2^-{self.light_bits}"
 
 
 @dataclass(frozen=True)
@@ -88,7 +91,7 @@ class ErrorModel:
     image_radius: float = 0.0
     """A pixel's ray may go through any point within so many pixels of its centre, in x and in y."""
     rasterisation: Rasterisation | None = None
-    """Where triangles are drawn rather than rays traced. Only first hits are then modelled, not colours."""
+    """Where triangles are drawn rather than rays traced."""
     output: OutputModel = field(default_factory=OutputModel)
     random_choices: str = ""
     """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""
@@ -99,6 +102,12 @@ class ErrorModel:
         nearest = self.ray_offset.minimum_distance
         if self.shadow_tolerance and (self.ray_offset.excludes_surface or self.shadow_tolerance < nearest):
             raise ValueError("a shadow tolerance is at least the least distance of hits, and excludes no surface")
+
+    def of_light(self) -> ErrorModel:
+        """That of colours, where another is that of first hits."""
+        if self.rasterisation is None or self.rasterisation.light_bits == self.precision_bits:
+            return self
+        return replace(self, precision_bits=self.rasterisation.light_bits)
 
     def in_words(self) -> dict[str, str]:
         """Each field as a clause, by what it is about."""

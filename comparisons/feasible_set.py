@@ -84,22 +84,26 @@ def feasible_set(
     bound = radiance_bound(scene)
     pixels = [(column, line) for line in range(scene.camera.height) for column in range(scene.camera.width)]
     with ctx.workprec(ctx.prec):  # both ways of following rays set it
+        model_of_light = error_model.of_light()
         plain = PixelEvaluator(PlainRays(scene, error_model, overrides), bound, FLOAT32_BITS)
-        # A rasteriser's model tells of first hits alone.
-        with_colors = with_colors and error_model.rasterisation is None
+        plain_light = plain
+        if with_colors and model_of_light is not error_model:
+            plain_light = PixelEvaluator(PlainRays(scene, model_of_light, overrides), bound, FLOAT32_BITS)
         colors: list[_Colors | None] = []
         hits = []
         for pixel in pixels:
-            colors.append(_colors(plain, pixel) if with_colors else None)
+            colors.append(_colors(plain_light, pixel) if with_colors else None)
             hits.append(_first_hits(plain, pixel))
         widest_radius = WIDE * _brightest(colors)
         wide = [place for place, color in enumerate(colors) if color is None or color.is_wide(widest_radius)]
         wide = wide if with_colors else []
         wide_hits = [place for place, hit in enumerate(hits) if hit is None]
-        if wide or wide_hits:
-            linked = PixelEvaluator(LinkedRays(scene, error_model, overrides), bound, FLOAT32_BITS)
+        if wide:
+            linked = PixelEvaluator(LinkedRays(scene, model_of_light, overrides), bound, FLOAT32_BITS)
             for place in wide:
                 colors[place] = _colors(linked, pixels[place]) or colors[place]
+        if wide_hits:
+            linked = PixelEvaluator(LinkedRays(scene, error_model, overrides), bound, FLOAT32_BITS)
             for place in wide_hits:
                 hits[place] = _first_hits(linked, pixels[place])
         return _as_arrays(scene, error_model, colors, hits)

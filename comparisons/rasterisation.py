@@ -10,8 +10,8 @@ rays moved to the side by as much as the corners are. So a pixel is a bundle of 
 through the bundle is it open what it shows.
 
 The depth is that of the plane through the corners, which float32 has rounded but nothing snapped, at c. How it is
-interpolated and kept loses a little more (depth_interpolation.py). The functions here that say so are overrides, as in
-ray_offsets.py.
+interpolated and kept loses a little more (depth_interpolation.py). What is drawn is lit, as rasterised_light.py says.
+The functions here are overrides, as in ray_offsets.py.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from flint import arb
 
-from comparisons.depth_interpolation import depth_errors, movement_in_space, window_error
+from comparisons.depth_interpolation import depth_errors
+from comparisons.drawn_pieces import movement_in_space, window_error
+from comparisons.rasterised_light import drawn_normal, light_constants, light_overrides
 from comparisons.view_volume import camera_axes, half_extent, view_volume
 from reference_tracer.bounding_volume import certainly_less, certainly_zero, clip
 from reference_tracer.features import PERSPECTIVE
@@ -56,6 +58,8 @@ def rasterisation_overrides(rasterisation: Rasterisation | None) -> dict[str, Ca
     return {
         "distance_to_triangle": drawn_distance,
         "box_is_missed": box_is_missed_by_bundle,
+        "triangle_normal": drawn_normal,
+        **light_overrides(),
     }
 
 
@@ -66,10 +70,12 @@ def rasterisation_constants(rasterisation: Rasterisation | None, scene: Scene) -
     volume = view_volume(scene)
     snapping = 2.0 ** -(rasterisation.subpixel_bits + 1)
     errors = depth_errors(scene, volume, snapping)
-    moved = [movement_in_space(scene, volume)] * 3
+    movement = movement_in_space(scene, volume)
+    moved = [movement] * 3
     right, up, _ = camera_axes(scene)
     pixel = 2 * half_extent(scene)[1] / scene.camera.height
-    in_image = (snapping + window_error(scene)) * pixel * (np.abs(right) + np.abs(up))
+    of_a_pixel = pixel * (np.abs(right) + np.abs(up))
+    in_image = (snapping + window_error(scene)) * of_a_pixel
     # A direction has length 1 and its point of the image plane is no nearer than that, so that this is enough.
     is_perspective = scene.camera.projection == "perspective"
     origin, direction = (moved, in_image) if is_perspective else (np.add(moved, in_image), np.zeros(3))
@@ -82,6 +88,7 @@ def rasterisation_constants(rasterisation: Rasterisation | None, scene: Scene) -
         "corner_spread": _about_zero(moved),
         "beyond": [arb(float(factor)) for factor in errors.beyond],
         "depth_error": _about_zero((errors.bounds + 2.0**-rasterisation.depth_bits) * unit),
+        **light_constants(scene, snapping, window_error(scene) * of_a_pixel, movement),
     }
 
 

@@ -15,7 +15,7 @@ from comparisons.rasterisation import rasterisation_constants, rasterisation_ove
 from comparisons.ray_offsets import offset_constants, offset_overrides
 from comparisons.triangle_tests import triangle_test_constants, triangle_test_overrides
 from reference_tracer.arithmetic import FLOAT
-from reference_tracer.balls import Decisions, rounded_ball_arithmetic
+from reference_tracer.balls import MARGIN_BITS, Decisions, ball_arithmetic, rounded_ball_arithmetic
 from reference_tracer.linked_arithmetic import linked_arithmetic
 from reference_tracer.linked_balls import condensed, enclose, enclosure
 from reference_tracer.rendering import prepare
@@ -63,13 +63,15 @@ class PlainRays:
         store_indices(self.prepared, error_model.index_bits)
         kernel = self.prepared.kernel
         kernel.nearest_hit = RememberedHit(kernel.nearest_hit, self.decisions)
-        self._frame = kernel.camera_frame(self.prepared.data)
+        camera = _exact_camera(scene, error_model) or self.prepared
+        self._primary_ray = camera.kernel.primary_ray
+        self._frame = camera.kernel.camera_frame(camera.data)
         self._image_radius = error_model.image_radius
 
     def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
         """As the protocol says."""
         x, y = arb(column + 0.5, self._image_radius), arb(line + 0.5, self._image_radius)
-        ray: tuple[Any, Any] = self.prepared.kernel.primary_ray(self._frame, x, y)
+        ray: tuple[Any, Any] = self._primary_ray(self._frame, x, y)
         return ray
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
@@ -91,6 +93,7 @@ class LinkedRays:
         arithmetic = linked_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model, scene))
         self.prepared = prepare(scene, arithmetic, {**_overrides(error_model), **(overrides or {})})
         store_indices(self.prepared, error_model.index_bits)
+        self._exact_rays = PlainRays(scene, error_model) if error_model.rasterisation else None
         frame = self.prepared.kernel.camera_frame(self.prepared.data)
         numbers = iter(condensed([number for vector in frame for number in vector]))
         self._frame = tuple(tuple(next(numbers) for _ in vector) for vector in frame)
@@ -99,6 +102,9 @@ class LinkedRays:
     def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
         """As the protocol says."""
         ball = self.prepared.arithmetic.functions["ball"]
+        if self._exact_rays is not None:
+            origin, direction = self._exact_rays.primary_ray(column, line)
+            return tuple(map(ball, origin)), tuple(map(ball, direction))
         x, y = (ball(arb(center + 0.5, self._image_radius)) for center in (column, line))
         origin, direction = self.prepared.kernel.primary_ray(self._frame, x, y)
         return _condensed_ray(origin, direction)
@@ -117,6 +123,13 @@ class LinkedRays:
         """As the protocol says."""
         primitive, values = first_hit(self.prepared, origin, direction)
         return primitive, tuple(enclosure(value) for value in values)
+
+
+def _exact_camera(scene: Scene, error_model: ErrorModel) -> PreparedScene | None:
+    """One whose rays are not rounded, for a rasteriser, which computes none: its places in the window are modelled."""
+    if error_model.rasterisation is None:
+        return None
+    return prepare(scene, ball_arithmetic(error_model.precision_bits + MARGIN_BITS, Decisions()))
 
 
 def store_indices(prepared: PreparedScene, bits: int | None) -> None:

@@ -2,15 +2,44 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import BaseModel, ConfigDict
 
 JOB_FILE = "job.json"
 TASK_FILE = "task.npz"
-"""The array `triangles` of shape (n, 3, 3), in float64."""
+"""The arrays `triangles` of shape (n, 3, 3), in float64, and `surface` of shape (n,): each one's place in the job."""
 RESULT_FILE = "result.npz"
-"""Arrays `primitive` and `depth` of shape (height, width), `normals` of shape (n, 3), `seconds` and `version`."""
+"""`seconds` and `version`; of first hits arrays `primitive` and `depth` of shape (height, width), `drawn_normal` of
+shape (height, width, 3) and `normals` of shape (n, 3); of light the array `image` of shape (height, width, 3)."""
 
 Vector = tuple[float, float, float]
+
+
+class Surface(BaseModel):
+    """A material's colours, times which VTK takes light."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    ambient: Vector
+    """What leaves it without any light."""
+    diffuse: Vector
+    specular: Vector
+    exponent: float
+
+
+class Lamp(BaseModel):
+    """A light."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    position: Vector | None
+    """None for parallel light."""
+    direction: Vector
+    """In which parallel light travels."""
+    color: Vector
+    attenuation: Vector
+    """The divisor's constant, linear and quadratic coefficient."""
 
 
 class Job(BaseModel):
@@ -18,6 +47,7 @@ class Job(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
+    draws: Literal["first hits", "light"] = "first hits"
     width: int
     height: int
     position: Vector
@@ -30,3 +60,6 @@ class Job(BaseModel):
     near: float
     """Depths along the forward direction of what is drawn."""
     far: float
+    background: Vector = (0.0, 0.0, 0.0)
+    surfaces: tuple[Surface, ...] = ()
+    lamps: tuple[Lamp, ...] = ()

@@ -5,41 +5,40 @@ Run as `python -P -m comparisons.renderers.vtk_worker`. It alone imports VTK, wh
 
 from __future__ import annotations
 
-import os
 import time
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-
-# The error model is that of Mesa's software rasteriser, which runs everywhere: no screen, and no graphics card. Both
-# are looked up when VTK makes its window.
-os.environ.pop("DISPLAY", None)
-os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
-
 import pyvista
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkFloatArray
-from vtkmodules.vtkRenderingCore import vtkPolyDataMapper
+from numpy.typing import NDArray
+from vtkmodules.vtkCommonCore import vtkInformation
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+from vtkmodules.vtkRenderingOpenGL2 import vtkLightingMapPass
 
-from comparisons.renderers.vtk_job import JOB_FILE, RESULT_FILE, TASK_FILE, Job
+from comparisons.renderers.vtk_job import JOB_FILE, RESULT_FILE, TASK_FILE, Job, Lamp, Surface
+from comparisons.renderers.vtk_window import Window
 
 Array = NDArray[Any]
+
+# Without any, VTK's shader has no normals.
+BLACK_LAMP = Lamp(position=None, direction=(0.0, 0.0, -1.0), color=(0.0, 0.0, 0.0), attenuation=(1.0, 0.0, 0.0))
 
 
 def main() -> None:
     """Do the job in the current folder."""
     job = Job.model_validate_json(Path(JOB_FILE).read_bytes())
     with np.load(TASK_FILE, allow_pickle=False) as task:
-        triangles = task["triangles"]
+        triangles, surface = task["triangles"], task["surface"]
     start = time.perf_counter()
-    mesh = mesh_of(triangles)
-    plotter = plotter_of(job, mesh)
-    result = {"primitive": drawn_primitives(plotter), "depth": drawn_depths(plotter, job), "normals": normals_of(mesh)}
+    window = Window(job)
+    if job.draws == "light":
+        result = {"image": drawn_light(window, triangles, surface)}
+    else:
+        result = drawn_first_hits(window, triangles)
     result["seconds"] = np.array(time.perf_counter() - start)
-    result["version"] = np.array(version_of(plotter))
-    plotter.close()
+    result["version"] = np.array(window.version())
+    window.plotter.close()
     write_whole(result)
 
 
@@ -50,62 +49,38 @@ def write_whole(result: dict[str, Array]) -> None:
     unfinished.replace(RESULT_FILE)
 
 
+def drawn_first_hits(window: Window, triangles: Array) -> dict[str, Array]:
+    """Numbers and depths in one picture, normals in view coordinates in another, and those of all triangles."""
+    mesh = mesh_of(triangles)
+    window.draw([numbered_actor(mesh)])
+    colors = window.colors().astype(np.int64)
+    primitive = colors[..., 0] + (colors[..., 1] << 8) + (colors[..., 2] << 16) - 1
+    depth = window.depths()
+    window.light([BLACK_LAMP])
+    # VTK shows a normal n as (n + 1)/2.
+    drawn_normal = 2 * window.floats([normals_actor(mesh)]).astype(np.float64) - 1
+    normals = np.asarray(mesh.cell_data["Normals"], dtype=np.float64)
+    return {"primitive": primitive, "depth": depth, "drawn_normal": drawn_normal, "normals": normals}
+
+
+def drawn_light(window: Window, triangles: Array, surface: Array) -> Array:
+    """The picture of all surfaces in the job's light."""
+    job = window.job
+    window.light(job.lamps)
+    window.plotter.renderer.SetBackground(*job.background)
+    actors = [
+        lit_actor(mesh_of(triangles[surface == number]), colors)
+        for number, colors in enumerate(job.surfaces)
+        if (surface == number).any()
+    ]
+    return window.floats(actors)
+
+
 def mesh_of(triangles: Array) -> pyvista.PolyData:
-    """The triangles, each coloured with its number plus one, in base 256."""
+    """The triangles, with VTK's own normals of them, on the side from which their corners run counterclockwise."""
     corners = np.arange(3 * len(triangles)).reshape(-1, 3)
     mesh = pyvista.PolyData.from_regular_faces(triangles.reshape(-1, 3), corners)
-    numbers = np.arange(1, len(triangles) + 1)
-    mesh.cell_data["number"] = np.stack([numbers >> shift & 255 for shift in (0, 8, 16)], axis=1).astype(np.uint8)
-    mesh.cell_data.active_scalars_name = "number"
-    return mesh
-
-
-def plotter_of(job: Job, mesh: pyvista.PolyData) -> pyvista.Plotter:
-    """A window off screen in which the mesh has been drawn: its colours as they are, over black."""
-    plotter = pyvista.Plotter(off_screen=True, window_size=[job.width, job.height], lighting="none")
-    plotter.background_color = "black"
-    plotter.disable_anti_aliasing()
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(mesh)
-    mapper.SetScalarModeToUseCellData()
-    mapper.SetColorModeToDirectScalars()
-    mapper.SetVBOShiftScaleMethod(0)  # else VTK moves and scales what it draws, which rounds otherwise
-    actor = pyvista.Actor(mapper=mapper)
-    actor.prop.lighting = False
-    plotter.add_actor(actor, reset_camera=False, render=False)
-    camera = plotter.camera
-    camera.position, camera.focal_point, camera.up = job.position, job.look_at, job.up
-    camera.parallel_projection = job.view_angle is None
-    camera.parallel_scale = job.view_height / 2
-    if job.view_angle is not None:
-        camera.view_angle = job.view_angle
-    plotter.camera_set = True
-    camera.clipping_range = (job.near, job.far)
-    plotter.show(auto_close=False, interactive=False)
-    camera.clipping_range = (job.near, job.far)  # showing it sets other ones
-    plotter.render()
-    return plotter
-
-
-def drawn_primitives(plotter: pyvista.Plotter) -> Array:
-    """The number of the triangle at each pixel, -1 for none, row 0 on top."""
-    colors = plotter.screenshot(return_img=True).astype(np.int64)
-    return np.asarray(colors[..., 0] + (colors[..., 1] << 8) + (colors[..., 2] << 16) - 1)
-
-
-def drawn_depths(plotter: pyvista.Plotter, job: Job) -> Array:
-    """Along the forward direction, from the z-buffer."""
-    values = vtkFloatArray()
-    plotter.render_window.GetZbufferData(0, 0, job.width - 1, job.height - 1, values)
-    z: Array = vtk_to_numpy(values).reshape(job.height, job.width)[::-1].astype(np.float64)
-    if job.view_angle is None:
-        return np.asarray(job.near + z * (job.far - job.near))
-    return 1 / (1 / job.near - z * (1 / job.near - 1 / job.far))
-
-
-def normals_of(mesh: pyvista.PolyData) -> Array:
-    """VTK's own normals of the triangles, on the side from which their corners run counterclockwise."""
-    filtered = mesh.compute_normals(
+    return mesh.compute_normals(
         cell_normals=True,
         point_normals=False,
         split_vertices=False,
@@ -113,20 +88,53 @@ def normals_of(mesh: pyvista.PolyData) -> Array:
         auto_orient_normals=False,
         non_manifold_traversal=False,
     )
-    return np.asarray(filtered.cell_data["Normals"], dtype=np.float64)
 
 
-def version_of(plotter: pyvista.Plotter) -> str:
-    """Of pyvista, VTK, and what VTK draws with. Raises RuntimeError where that is not llvmpipe."""
-    capabilities = dict(
-        line.split(": ", 1) for line in plotter.render_window.ReportCapabilities().splitlines() if ": " in line
-    )
-    drawn_with = capabilities.get("OpenGL renderer string", "unknown").strip()
-    if not drawn_with.startswith("llvmpipe"):
-        raise RuntimeError(f"VTK draws with {drawn_with} here, and the error model is that of Mesa's llvmpipe")
-    mesa = capabilities.get("OpenGL version string", "").partition("Mesa")[2].strip()
-    vtk = ".".join(str(number) for number in pyvista.vtk_version_info)
-    return f"pyvista {pyvista.__version__}, VTK {vtk}, Mesa {mesa}"
+def actor_of(mesh: pyvista.PolyData) -> tuple[vtkActor, vtkPolyDataMapper]:
+    """An actor of flat triangles where they are: VTK may move and scale what it draws, which rounds otherwise."""
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(mesh)
+    mapper.SetVBOShiftScaleMethod(0)
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetInterpolationToFlat()
+    return actor, mapper
+
+
+def numbered_actor(mesh: pyvista.PolyData) -> vtkActor:
+    """Each triangle in the colour of its number plus one, in base 256, without light."""
+    numbers = np.arange(1, mesh.n_cells + 1)
+    mesh.cell_data["number"] = np.stack([numbers >> shift & 255 for shift in (0, 8, 16)], axis=1).astype(np.uint8)
+    mesh.cell_data.active_scalars_name = "number"
+    actor, mapper = actor_of(mesh)
+    mapper.ScalarVisibilityOn()
+    mapper.SetScalarModeToUseCellData()
+    mapper.SetColorModeToDirectScalars()
+    actor.GetProperty().LightingOff()
+    return actor
+
+
+def normals_actor(mesh: pyvista.PolyData) -> vtkActor:
+    """Each triangle in the colour of the normal that VTK lights it with."""
+    actor, _ = actor_of(mesh)
+    shown = vtkInformation()
+    shown.Set(vtkLightingMapPass.RENDER_NORMALS(), 1)
+    actor.SetPropertyKeys(shown)
+    return actor
+
+
+def lit_actor(mesh: pyvista.PolyData, surface: Surface) -> vtkActor:
+    """Triangles of one material."""
+    actor, _ = actor_of(mesh)
+    colors = actor.GetProperty()
+    for coefficient in (colors.SetAmbient, colors.SetDiffuse, colors.SetSpecular):
+        coefficient(1.0)
+    colors.SetAmbientColor(*surface.ambient)
+    colors.SetDiffuseColor(*surface.diffuse)
+    colors.SetSpecularColor(*surface.specular)
+    colors.SetSpecularPower(surface.exponent)
+    return actor
 
 
 if __name__ == "__main__":

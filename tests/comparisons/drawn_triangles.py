@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from comparisons.renderer import FirstHits, Rays
-from comparisons.view_volume import camera_axes, half_extent, view_volume
+from comparisons.view_volume import camera_axes, half_extent, homogeneous_corners, view_volume
 from reference_tracer.rendering import primary_rays
 from scenes.exporters.triangle_soup import triangles_of_scene
 from tests.scenes.exporter_scenes import build
@@ -76,6 +76,17 @@ def window_corners(scene: Scene) -> NDArray[np.float32]:
     return window
 
 
+def exact_corners(scene: Scene) -> NDArray[np.float64]:
+    """Places in the window and depths there, in float64."""
+    corners, volume = homogeneous_corners(scene), view_volume(scene)
+    size = np.array([scene.camera.width, scene.camera.height])
+    places = (corners[..., :2] / corners[..., 2:3] * [1, -1] + 1) * size / 2
+    depth = (corners[..., 3] - volume.near) / (volume.far - volume.near)
+    if scene.camera.projection == "perspective":
+        depth *= volume.far / corners[..., 3]
+    return np.asarray(np.concatenate([places, depth[..., np.newaxis]], axis=-1))
+
+
 def covered(
     triangle: NDArray[np.float32], xs: NDArray[np.float32], ys: NDArray[np.float32], subpixel_bits: int
 ) -> NDArray[np.bool_]:
@@ -97,6 +108,31 @@ def depth_plane(triangle: NDArray[np.float32], xs: NDArray[np.float32], ys: NDAr
         slope_y = (z2 - z0) * ((x0 - x1) * inverse) - (z0 - z1) * ((x2 - x0) * inverse)
         at_origin = z0 - (slope_x * (x0 - F(0.5)) + slope_y * (y0 - F(0.5)))
         return np.asarray(at_origin + slope_x * xs + slope_y * ys)
+
+
+def view_corners(scene: Scene) -> NDArray[np.float32]:
+    """Corners in view coordinates, z forward, by a float32 matrix; shape (n, 3, 3)."""
+    rows = np.array(camera_axes(scene))
+    matrix = np.column_stack([rows, -rows @ np.array(scene.camera.position)]).astype(F)
+    points = triangles_of_scene(scene).astype(F)
+    moved = matrix[:, 0] * points[..., :1] + matrix[:, 1] * points[..., 1:2]
+    return np.asarray((moved + matrix[:, 2] * points[..., 2:]) + matrix[:, 3])
+
+
+def drawn_positions(
+    scene: Scene, triangle: int, xs: NDArray[np.float32], ys: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """Where llvmpipe's formulas put the fragments of a triangle, in view coordinates, all in float32."""
+    window, view = window_corners(scene)[triangle], view_corners(scene)[triangle]
+    inverse = F(1) / view[:, 2] if scene.camera.projection == "perspective" else np.ones(3, dtype=F)
+
+    def plane(values: NDArray[np.float32]) -> NDArray[np.float32]:
+        return depth_plane(np.column_stack([window[:, :2], values]), xs, ys)
+
+    w = F(1) / plane(inverse)
+    positions = np.stack([plane(view[:, axis] * inverse) * w for axis in range(3)], axis=-1)
+    assert positions.dtype == F
+    return positions
 
 
 def first_hits_of(scene: Scene, buffer: NDArray[np.float32], primitive: NDArray[np.int64]) -> FirstHits:

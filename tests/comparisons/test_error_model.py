@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import pytest
 
@@ -34,9 +34,19 @@ def test_a_ray_offset_is_told_in_words(offset: RayOffset) -> None:
 
 
 def test_how_triangles_are_drawn_is_told_in_words() -> None:
-    words = ErrorModel("", 24, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=16)).in_words()["drawing"]
+    model = ErrorModel("", 24, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=16, light_bits=22))
+    words = model.in_words()["drawing"]
     assert "snapped to 2^-8 of a pixel" in words
     assert "z-buffer of 16 bits" in words
+    assert "their light errs by at most 2^-22" in words
+
+
+def test_light_has_another_precision_only_where_triangles_are_drawn() -> None:
+    traced = ErrorModel("", 24)
+    assert traced.of_light() is traced
+    drawn = replace(traced, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=16, light_bits=22))
+    assert drawn.of_light() == replace(drawn, precision_bits=22)
+    assert drawn.of_light().of_light() == drawn.of_light()
 
 
 def test_offsets_that_no_renderer_can_have_are_refused() -> None:

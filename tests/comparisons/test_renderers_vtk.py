@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 
-from comparisons.cell import CellPlace, run_cell
 from comparisons.comparability import depth_or_reason
-from comparisons.feasible_set import feasible_set
-from comparisons.image_judgement import Evidence
 from comparisons.renderer import Rays, RendererError
 from comparisons.renderers import vtk as adapter
 from comparisons.renderers.vtk import Vtk
@@ -22,6 +18,7 @@ from reference_tracer.rendering import primary_rays
 from scenes.library import library_names, open_scene
 from scenes.shapes import Sphere
 from tests.comparisons.drawn_triangles import ORTHOGRAPHIC, PERSPECTIVE
+from tests.comparisons.vtk_cells import cell_of, needs_vtk
 from tests.scenes.exporter_scenes import BALL, GLASS, build
 
 if TYPE_CHECKING:
@@ -30,16 +27,12 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from comparisons.results import Cell
     from scenes.scene import Scene
 
     Arrays = dict[str, NDArray[Any]]
 
 pytestmark = pytest.mark.clause("REN-4")
 
-# Set where every reference must be there (.ci/run): a missing one then fails its tests instead of leaving them out.
-REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))
-needs_vtk = pytest.mark.skipif(not REQUIRE_ALL and Vtk().version() is None, reason="VTK cannot draw here")
 PROJECTIONS = pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC], ids=["perspective", "orthographic"])
 TRIANGLE_SCENES = [
     name for name in library_names() if not any(isinstance(shape, Sphere) for shape in open_scene(name).objects)
@@ -60,17 +53,10 @@ def small_scene(projection: dict[str, Any]) -> Scene:
     return build(objects=[ROOF, FLOOR], camera=camera | projection)
 
 
-def cell_of(scene: Scene, folder: Path) -> Cell:
-    # What is not compared may be anything.
-    truth = np.zeros((scene.camera.height, scene.camera.width, 3))
-    evidence = Evidence(scene, truth, Rays(*primary_rays(scene)), feasible_set(scene, Vtk.error_model))
-    return run_cell(CellPlace("small", "vtk", "first-hits", key="", source="small"), Vtk(), 0, evidence, folder)
-
-
 @needs_vtk
 @PROJECTIONS
 def test_a_roof_over_a_floor_that_is_cut_passes(projection: dict[str, Any], tmp_path: Path) -> None:
-    cell = cell_of(small_scene(projection), tmp_path)
+    cell = cell_of(small_scene(projection), "first-hits", tmp_path)
     assert cell.verdict == Verdict.PASS, cell.reason
     assert cell.first_hits is not None
     assert cell.first_hits.compared == 32 * 24
@@ -94,16 +80,19 @@ def test_every_triangle_scene_passes_with_parallel_rays_too(name: str, tmp_path:
         "view_height": height,
     }
     seen = build(**{**scene.model_dump(exclude={"camera"}), "camera": parallel})
-    cell = cell_of(seen, tmp_path)
+    cell = cell_of(seen, "first-hits", tmp_path)
     assert cell.verdict == Verdict.PASS, cell.reason
 
 
+DRAWN = ("primitive", "depth", "drawn_normal")
+
+
 def flipped(result: Arrays) -> Arrays:
-    return result | {"primitive": result["primitive"][::-1], "depth": result["depth"][::-1]}
+    return result | {name: result[name][::-1] for name in DRAWN}
 
 
 def mirrored(result: Arrays) -> Arrays:
-    return result | {"primitive": result["primitive"][:, ::-1], "depth": result["depth"][:, ::-1]}
+    return result | {name: result[name][:, ::-1] for name in DRAWN}
 
 
 def farther(result: Arrays) -> Arrays:
@@ -111,7 +100,7 @@ def farther(result: Arrays) -> Arrays:
 
 
 def shifted_by_a_pixel(result: Arrays) -> Arrays:
-    return result | {name: np.roll(result[name], 1, axis=1) for name in ("primitive", "depth")}
+    return result | {name: np.roll(result[name], 1, axis=1) for name in DRAWN}
 
 
 def one_wrong_number(result: Arrays) -> Arrays:
@@ -125,15 +114,36 @@ def turned_normals(result: Arrays) -> Arrays:
     return result | {"normals": -result["normals"]}
 
 
+def normals_a_little_to_the_right(result: Arrays) -> Arrays:
+    """As from a matrix that is off by a hundredth of a percent."""
+    return result | {"drawn_normal": result["drawn_normal"] + np.array([1e-4, 0.0, 0.0])}
+
+
+def normals_of_the_pixel_beside(result: Arrays) -> Arrays:
+    return result | {"drawn_normal": np.roll(result["drawn_normal"], 1, axis=1)}
+
+
 @needs_vtk
 @PROJECTIONS
-@pytest.mark.parametrize("fault", [flipped, mirrored, farther, shifted_by_a_pixel, one_wrong_number, turned_normals])
+@pytest.mark.parametrize(
+    "fault",
+    [
+        flipped,
+        mirrored,
+        farther,
+        shifted_by_a_pixel,
+        one_wrong_number,
+        turned_normals,
+        normals_a_little_to_the_right,
+        normals_of_the_pixel_beside,
+    ],
+)
 def test_a_fault_in_what_is_drawn_fails(
     projection: dict[str, Any], fault: Callable[[Arrays], Arrays], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     right = adapter._run
     monkeypatch.setattr(adapter, "_run", lambda *arguments: fault(right(*arguments)))
-    assert cell_of(small_scene(projection), tmp_path).verdict == Verdict.FAIL
+    assert cell_of(small_scene(projection), "first-hits", tmp_path).verdict == Verdict.FAIL
 
 
 def test_what_it_cannot_draw_is_refused() -> None:

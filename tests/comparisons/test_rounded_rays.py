@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from comparisons.error_model import ErrorModel
+from comparisons.error_model import ErrorModel, Rasterisation
 from comparisons.rounded_rays import LinkedRays, PlainRays
 from reference_tracer.arithmetic import FLOAT
 from reference_tracer.linked_balls import enclosure
@@ -65,3 +65,17 @@ def test_a_pixels_ray_stands_for_all_rays_within_the_image_radius(way: Any, ball
     assert any(max(values) > min(values) for values in inside)
     for ball, values in zip(balls, inside, strict=True):
         assert 2 * float(ball.rad()) <= 4 * (max(values) - min(values)) + 2.0**-20
+
+
+@pytest.mark.parametrize(("way", "ball_of"), [(PlainRays, lambda ball: ball), (LinkedRays, enclosure)])
+@pytest.mark.parametrize("name", ["single-triangle", "parallel-projection"])
+def test_a_rasteriser_rounds_no_camera_rays(name: str, way: Any, ball_of: Any) -> None:
+    scene = open_scene(name)
+    prepared = prepare(scene, FLOAT)
+    exact = prepared.kernel.primary_ray(prepared.kernel.camera_frame(prepared.data), 20.5, 30.5)
+    for rasterisation, widest in ((Rasterisation(8, 24, 22), 2.0**-44), (None, 2.0**-14)):
+        rays = way(scene, ErrorModel("", 24, rasterisation=rasterisation))
+        balls = [ball_of(number) for vector in rays.primary_ray(20, 30) for number in vector]
+        middles = [float(ball.mid()) for ball in balls]
+        assert middles == pytest.approx(list(itertools.chain(*exact)), abs=widest)
+        assert widest / 2.0**16 < max(float(ball.rad()) for ball in balls) < widest

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.clause("VER-3")
 
 REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))
-# Largest difference of a deterministic diffuse scene with one light: some 2^7 float32 roundings of values about 1.
+# Largest difference of a deterministic scene with one light: some 2^7 float32 roundings of values about 1.
 SINGLE_LIGHT_LIMIT = 2e-5
 
 
@@ -109,7 +109,7 @@ def test_povray_confirms_every_whitted_scene_that_it_can_express(results: dict[s
 
 
 def test_vtk_passes_every_scene_of_triangles(results: dict[str, Any]) -> None:
-    cells = [cell for cell in results["cells"] if cell["renderer"] == "vtk"]
+    cells = [cell for cell in results["cells"] if (cell["renderer"], cell["integrator"]) == ("vtk", "first-hits")]
     if not REQUIRE_ALL and any(cell["verdict"] == "unavailable" for cell in cells):
         pytest.skip("VTK cannot draw here")
     objects = {name: open_scene(name).objects for name in library_names()}
@@ -119,6 +119,15 @@ def test_vtk_passes_every_scene_of_triangles(results: dict[str, Any]) -> None:
     for name, hits in passing.items():
         assert hits["primitive_mismatches"] == 0, name
         assert hits["ambiguous"] < hits["compared"] / 10, name
+
+
+def test_vtk_lights_the_triangles_that_no_light_is_hidden_from(results: dict[str, Any]) -> None:
+    cells = [cell for cell in results["cells"] if (cell["renderer"], cell["integrator"]) == ("vtk", "local")]
+    if not REQUIRE_ALL and any(cell["verdict"] == "unavailable" for cell in cells):
+        pytest.skip("VTK cannot draw here")
+    passing = {cell["scene"]: cell["largest_error"] for cell in cells if cell["verdict"] == "pass"}
+    assert passing.keys() >= {"falloff-none", "falloff-inverse-square", "phong-triangle", "single-triangle"}
+    assert max(passing.values()) < SINGLE_LIGHT_LIMIT
 
 
 def test_a_single_light_on_diffuse_surfaces_agrees_closely(results: dict[str, Any]) -> None:

@@ -1,0 +1,39 @@
+"""Cells of VTK's, judged as the matrix judges them."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+from comparisons.cell import CellPlace, run_cell
+from comparisons.feasible_set import feasible_set
+from comparisons.image_judgement import Evidence
+from comparisons.renderer import Rays
+from comparisons.renderers.vtk import Vtk
+from reference_tracer.rendering import primary_rays
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from comparisons.results import Cell
+    from scenes.scene import Scene
+
+# Set where every reference must be there (.ci/run): a missing one then fails its tests instead of leaving them out.
+REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))
+needs_vtk = pytest.mark.skipif(not REQUIRE_ALL and Vtk().version() is None, reason="VTK cannot draw here")
+
+
+def evidence_of(scene: Scene, *, with_colors: bool) -> Evidence:
+    """What a scene's cells are judged by; the truth that they are shown beside is black."""
+    truth = np.zeros((scene.camera.height, scene.camera.width, 3))
+    feasible = feasible_set(scene, Vtk.error_model, with_colors=with_colors)
+    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible)
+
+
+def cell_of(scene: Scene, integrator: str, folder: Path, evidence: Evidence | None = None) -> Cell:
+    """VTK's cell of a scene."""
+    evidence = evidence or evidence_of(scene, with_colors=integrator == "local")
+    return run_cell(CellPlace("small", "vtk", integrator, key="", source="small"), Vtk(), 0, evidence, folder)
