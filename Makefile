@@ -34,11 +34,14 @@ bench: .venv/test.stamp ## Time the tracer beside its peers, and the truth besid
 clean: ## Remove the environment and all caches; results/ stays
 	rm -rf .venv build dist *.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
 
+# What Blender's library is linked with and does not bring along.
+FOR_BLENDER = libgl1 libsm6 libxfixes3 libxi6 libxkbcommon0 libxrender1
+
 # The stamps: an environment is made again only when what it is made from has changed.
 .venv/run.stamp: pyproject.toml constraints.txt tools/make_environment.sh
-	@bash tools/make_environment.sh '.[embree,vtk]' libllvm19 povray libegl1 libgl1-mesa-dri
+	@bash tools/make_environment.sh '.[embree,vtk]' libllvm19 povray libegl1 libgl1-mesa-dri $(FOR_BLENDER)
 	@touch $@
 
 .venv/test.stamp: pyproject.toml constraints.txt tools/make_environment.sh
-	@bash tools/make_environment.sh '.[test]' libllvm19 povray libegl1 libgl1-mesa-dri chromium
+	@bash tools/make_environment.sh '.[test]' libllvm19 povray libegl1 libgl1-mesa-dri $(FOR_BLENDER) chromium
 	@touch $@ .venv/run.stamp

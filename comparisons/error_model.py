@@ -25,10 +25,17 @@ class RayOffset:
     excludes_surface: bool = True
     """Whether a ray cannot meet again the point that it leaves: by the identity of the primitive, or since the offset
     is far above all rounding. If not, the primitive is tested as all others are: of a sphere both roots."""
+    is_bound: bool = False
+    """Whether only some rays are moved, those that would miss the triangle that they leave, and by no more than that.
+    So each coordinate of a ray's start may be off by anything up to that, to either side (bounded_offsets.py)."""
 
     def __post_init__(self) -> None:
         if min(self.absolute, self.relative, self.minimum_distance) < 0.0:
             raise ValueError("a ray offset is not negative")
+        if self.is_bound and not (self.moves_rays and self.excludes_surface):
+            raise ValueError(
+                "a bound on an offset is above 0, and the surface is excluded, on whichever side a ray starts"
+            )
         if self.excludes_surface and (self.minimum_distance > 0.0 or self.along == "direction"):
             raise ValueError("with a least distance, or an offset along the ray, a surface is tested as all others are")
 
@@ -40,6 +47,7 @@ class RayOffset:
     def in_words(self) -> str:
         """One clause."""
         start = f"{self._length()} along the {self._vector()}" if self.moves_rays else "on the surface"
+        start = f"up to {start}, to either side" if self.is_bound else start
         nearest = f", hits nearer than {self.minimum_distance:.3g} are ignored" if self.minimum_distance > 0.0 else ""
         left = "cannot be hit again there" if self.excludes_surface else "is tested as all others are"
         return f"{start}{nearest}; the surface {left}"
@@ -88,6 +96,8 @@ class ErrorModel:
     """Indices of refraction are rounded to this many bits when they are stored, if to fewer than all else."""
     triangle_test: Literal["watertight", "moeller-trumbore", "pluecker"] = "watertight"
     """Which formula decides whether a ray meets a triangle: the truth's own, or one of triangle_tests.py."""
+    triangle_points: Literal["along the ray", "barycentric"] = "along the ray"
+    """How the point is found where a ray meets a triangle: from its distance, or by triangle_points.py."""
     image_radius: float = 0.0
     """A pixel's ray may go through any point within so many pixels of its centre, in x and in y."""
     rasterisation: Rasterisation | None = None
@@ -120,6 +130,7 @@ class ErrorModel:
             "camera rays go": around if self.image_radius > 0.0 else "through the centres of pixels",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
             "triangles": f"{self.triangle_test} test",
+            "points on triangles": self.triangle_points,
             "drawing": self.rasterisation.in_words() if self.rasterisation else "none: rays are traced",
             "rays that leave a surface start": self.ray_offset.in_words(),
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
+from comparisons.bounded_offsets import departure_within_bound, is_shadowed_from_within_bound
 from reference_tracer.balls import stored_number
 from reference_tracer.scene_data import (
     SPHERE_CENTER,
@@ -57,12 +58,15 @@ def offset_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
     """The functions of the tracer's source that this renderer's offsets change."""
     offset = error_model.ray_offset
     overrides: dict[str, Callable[..., Any]] = {}
-    if offset.moves_rays:
+    if offset.is_bound:
+        overrides["departure"] = departure_within_bound
+        overrides["is_shadowed"] = is_shadowed_from_within_bound
+    elif offset.moves_rays:
         overrides["departure"] = departure_along_normal if offset.along == "normal" else departure_along_ray
     if not offset.excludes_surface:
         overrides["distance_to_sphere"] = distance_to_any_sphere
         overrides["distance_to_triangle"] = distance_to_any_triangle
-    elif offset.moves_rays:
+    elif offset.moves_rays and not offset.is_bound:
         overrides["distance_to_other_side"] = distance_to_other_side_from_offset
     if error_model.shadow_shortening > 0.0:
         overrides["shadow_ray_end"] = early_shadow_ray_end
@@ -78,6 +82,9 @@ def offset_constants(error_model: ErrorModel) -> dict[str, Any]:
         "absolute_offset": stored_number(offset.absolute, bits),
         "relative_offset": stored_number(offset.relative, bits),
         "about_one": arb(1, offset.relative),
+        "anywhere_x": arb(0, 1),
+        "anywhere_y": arb(0, 1),
+        "anywhere_z": arb(0, 1),
         "minimum_distance": stored_number(offset.minimum_distance, bits),
         "shadow_shortening": stored_number(error_model.shadow_shortening, bits),
         "shadow_tolerance": stored_number(error_model.shadow_tolerance, bits),

@@ -13,6 +13,7 @@ from flint import arb
 
 from comparisons.rasterisation import rasterisation_constants, rasterisation_overrides
 from comparisons.ray_offsets import offset_constants, offset_overrides
+from comparisons.triangle_points import triangle_point_constants, triangle_point_overrides
 from comparisons.triangle_tests import triangle_test_constants, triangle_test_overrides
 from reference_tracer.arithmetic import FLOAT
 from reference_tracer.balls import MARGIN_BITS, Decisions, ball_arithmetic, rounded_ball_arithmetic
@@ -180,6 +181,7 @@ def _overrides(error_model: ErrorModel) -> Overrides:
     return {
         **offset_overrides(error_model),
         **triangle_test_overrides(error_model),
+        **triangle_point_overrides(error_model),
         **rasterisation_overrides(error_model.rasterisation),
     }
 
@@ -188,6 +190,7 @@ def _constants(error_model: ErrorModel, scene: Scene) -> dict[str, Any]:
     return {
         **offset_constants(error_model),
         **triangle_test_constants(),
+        **triangle_point_constants(error_model),
         **rasterisation_constants(error_model.rasterisation, scene),
     }
 

@@ -46,4 +46,10 @@ echo "Installing raytruth and what it needs into .venv …"
 # The system's packages come from elsewhere and take as long: both at once.
 bash tools/install_system_packages.sh "$@" &
 .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-input --constraint constraints.txt --editable "$what"
+# Blender asks for NumPy 1, for its audio module alone, which is not used: so it is installed without what it asks for.
+# There is a wheel of this version for one Python only.
+if ! .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-input --no-deps --only-binary :all: \
+    --constraint constraints.txt bpy 2>/dev/null; then
+    echo "There is no bpy for this Python. raytruth works without, with fewer renderers or tests."
+fi
 wait

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from comparisons.renderers.closed_form import ClosedFormRenderer
+from comparisons.renderers.cycles import Cycles
 from comparisons.renderers.embree import embree, embree_robust
 from comparisons.renderers.mitsuba import mitsuba_llvm, mitsuba_scalar
 from comparisons.renderers.povray import PovRay
@@ -37,6 +38,7 @@ def all_renderers() -> dict[str, Renderer]:
         mitsuba_scalar(),
         mitsuba_llvm(),
         PovRay(),
+        Cycles(),
         embree(),
         embree_robust(),
         Vtk(),

@@ -6,7 +6,7 @@ pytestmark = pytest.mark.clause("REN-5")
 
 
 def test_every_renderer_stands_under_its_name() -> None:
-    assert {"mitsuba", "mitsuba-llvm", "povray", "closed_form", "raytruth"} <= all_renderers().keys()
+    assert {"mitsuba", "mitsuba-llvm", "povray", "cycles", "closed_form", "raytruth"} <= all_renderers().keys()
     for name, renderer in all_renderers().items():
         assert renderer.name == name
         assert renderer.install

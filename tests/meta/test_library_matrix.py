@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.clause("VER-3")
 
 REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))
-# Largest difference of a deterministic scene with one light: some 2^7 float32 roundings of values about 1.
+CYCLES_REQUIRED = REQUIRE_ALL and sys.version_info[:2] == (3, 11)  # there is a wheel of Blender for one Python only
+# Largest difference of a deterministic diffuse scene with one light: some 2^7 float32 roundings of values about 1.
 SINGLE_LIGHT_LIMIT = 2e-5
 
 
@@ -51,7 +52,7 @@ def passing(results: dict[str, Any], integrator: str, feature: Feature | None, r
 
 
 def test_every_comparable_cell_passes(results: dict[str, Any]) -> None:
-    optional = {"mitsuba-llvm", "povray", "embree", "embree-robust", "vtk"}
+    optional = {"mitsuba-llvm", "povray", "cycles", "embree", "embree-robust", "vtk"}
     verdicts = {cell["verdict"] for cell in results["cells"] if cell["renderer"] not in optional}
     assert verdicts == {"pass", "incomparable"}
 
@@ -108,6 +109,16 @@ def test_povray_confirms_every_whitted_scene_that_it_can_express(results: dict[s
     assert len(passing) >= 36
 
 
+def test_cycles_passes_every_scene_that_it_can_express(results: dict[str, Any]) -> None:
+    cells = [cell for cell in results["cells"] if cell["renderer"] == "cycles"]
+    if not CYCLES_REQUIRED and any(cell["verdict"] == "unavailable" for cell in cells):
+        pytest.skip("bpy is not installed")
+    assert {cell["verdict"] for cell in cells} == {"pass", "incomparable"}
+    assert len(passing(results, "path", None, "cycles")) >= 18
+    assert len(passing(results, "path", Feature.MIRRORS, "cycles")) >= 7
+    assert len(passing(results, "path", Feature.DIELECTRICS, "cycles")) >= 2
+
+
 def test_vtk_passes_every_scene_of_triangles(results: dict[str, Any]) -> None:
     cells = [cell for cell in results["cells"] if (cell["renderer"], cell["integrator"]) == ("vtk", "first-hits")]
     if not REQUIRE_ALL and any(cell["verdict"] == "unavailable" for cell in cells):
@@ -140,11 +151,14 @@ def test_a_single_light_on_diffuse_surfaces_agrees_closely(results: dict[str, An
             assert cell["largest_error"] < SINGLE_LIGHT_LIMIT, cell["scene"]
 
 
-def test_every_pixel_of_every_cell_is_judged_and_hardly_one_by_a_box_of_several_outcomes(
+def test_nearly_every_pixel_of_every_cell_is_judged_and_hardly_one_by_a_box_of_several_outcomes(
     results: dict[str, Any],
 ) -> None:
     judged = [cell for cell in results["cells"] if cell["judgement"]]
-    assert [cell["scene"] for cell in judged if cell["judgement"]["unjudged"]] == []
+    # What can be proved of the robust test of triangles, which Cycles asks for, leaves some rays at edges open.
+    open_pixels = {(cell["renderer"], cell["scene"]) for cell in judged if cell["judgement"]["unjudged"]}
+    assert {renderer for renderer, _ in open_pixels} <= {"cycles"}
+    assert all(cell["judgement"]["unjudged"] < cell["judgement"]["pixels"] / 1000 for cell in judged)
     deterministic = [cell["judgement"] for cell in judged if not cell["stochastic"]]
     capped = sum(judgement["capped"] for judgement in deterministic)
     assert capped < sum(judgement["pixels"] for judgement in deterministic) / 1000

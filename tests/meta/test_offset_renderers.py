@@ -68,6 +68,19 @@ def rendered(scene_name: str, policy: RayOffset, numbers: str) -> NDArray[np.flo
         return np.asarray(render_prepared(prepared), dtype=np.float64)
 
 
+# Only some rays are moved, by no more than a bound: whether all are, or none, is then feasible.
+BOUND = RayOffset(absolute=FAR / 8, is_bound=True)
+
+
+@pytest.mark.parametrize("policy", [RayOffset(), RayOffset(absolute=FAR / 8)], ids=RayOffset.in_words)
+@pytest.mark.parametrize("scene_name", [name for name in SCENES if name != "concave-mirror"])
+def test_who_moves_some_rays_lies_in_the_feasible_set_of_their_bound(scene_name: str, policy: RayOffset) -> None:
+    image = rendered(scene_name, policy, "float32")
+    distances = distances_in_tolerances(image, feasible(scene_name, BOUND, "float32"))
+    assert np.argwhere(distances > 1).tolist() == []
+    assert (distances >= 0).mean() > 0.9
+
+
 @cache
 def feasible(scene_name: str, policy: RayOffset, numbers: str) -> FeasibleSet:
     return feasible_set(library_scene(scene_name), model_of(policy, numbers))
