@@ -8,7 +8,7 @@ import pytest
 
 from reference_tracer.rendering import render
 from tests.reference_tracer.kernels import EXACT
-from tests.reference_tracer.small_scenes import lamp, small_scene
+from tests.reference_tracer.small_scenes import lamp, small_scene, square
 
 # The camera sees the sphere's point (0, 0, 1) head on, so that all numbers of the classical convention are rational.
 ABOVE = (0.0, 0.0, 3.0)  # 2 before the point
@@ -45,6 +45,17 @@ def test_a_light_behind_or_level_with_the_surface_gives_nothing(position: tuple[
     assert pixel(WHITE | GLOSSY, [lamp(position)]) == (0, 0, 0)
 
 
+@pytest.mark.clause("ILL-2")
+def test_a_light_level_with_the_surface_makes_no_highlight_either() -> None:
+    # Seen along (-4, 0, -3)/5, the mirrored direction and that to the lamp have the cosine 4/5.
+    camera = {"position": (4.0, 0.0, 3.0)}
+    level, raised = (
+        pixel(GLOSSY, [lamp(position)], camera=camera, objects=[square("white", 0.0)])[0]
+        for position in ((-5.0, 0.0, 0.0), (-4.0, 0.0, 3.0))
+    )
+    assert (level, raised) == (0, 1)
+
+
 @pytest.mark.clause("ILL-7")
 @pytest.mark.parametrize(
     ("falloff", "part"),
@@ -53,6 +64,7 @@ def test_a_light_behind_or_level_with_the_surface_gives_nothing(position: tuple[
         ("inverse_square", Fraction(1, 25)),
         ({"constant": 1.0, "linear": 0.5, "quadratic": 0.25}, 1 / (1 + Fraction(5, 2) + Fraction(25, 4))),
         ({"constant": 0.5, "linear": 0.0625, "quadratic": 0.0}, Fraction(1)),  # 1/(0.8125), limited to 1
+        ({"constant": 0.5, "linear": 0.125, "quadratic": 0.0}, 1 / Fraction(9, 8)),  # barely not limited
         ({"constant": 0.0, "linear": 0.0, "quadratic": 1.0}, Fraction(1, 25)),
     ],
 )
