@@ -51,6 +51,13 @@ def test_the_same_holds_in_float32(a: float, b: float) -> None:
         assert sum(Fraction(float(part)) for part in parts) == expected
 
 
+def test_a_square_next_to_one_is_split_without_a_bit_too_many() -> None:
+    # Split by 2^12 instead of 2^12 + 1, the upper half of such a number would have 13 bits, whose square has 25.
+    a = np.float32(float.fromhex("0x1.000802p+0"))
+    product, error = numpy_kernel(np.float32).square(a)
+    assert Fraction(float(product)) + Fraction(float(error)) == Fraction(float(a)) ** 2
+
+
 def test_in_exact_arithmetic_there_is_no_error() -> None:
     assert exact_kernel().two_sum(Fraction(1, 3), Fraction(1, 7)) == (Fraction(10, 21), 0)
     assert exact_kernel().square(Fraction(1, 3)) == (Fraction(1, 9), 0)
@@ -90,3 +97,16 @@ def test_a_camera_one_metre_above_the_earth_loses_no_bit() -> None:
     assert error <= Fraction(ulp(float(ideal)))
     plain = origin[0] ** 2 + origin[2] ** 2 - radius**2
     assert bits(abs(Fraction(plain) - ideal), abs(ideal)) > 15
+
+
+COORDINATES = st.floats(-1.0, 1.0).filter(lambda x: x == 0 or abs(x) > 2.0**-20)
+
+
+@pytest.mark.clause("SPH-1")
+@given(st.tuples(COORDINATES, COORDINATES, COORDINATES), st.floats(0.25, 1.0))
+def test_far_from_the_surface_only_the_last_sum_rounds(origin: tuple[float, float, float], radius: float) -> None:
+    note_case(origin=origin, radius=radius)
+    ideal = dot(exact(origin), exact(origin)) - Fraction(radius) ** 2
+    error = abs(Fraction(sphere_constant(origin, (0.0, 0.0, 0.0), radius)) - ideal)
+    # Half a unit in the last place, and the corrections' own roundings: ten at most of what is γ(2) of the squares.
+    assert error <= gamma(1) * abs(ideal) + gamma(10) ** 2 * (length(exact(origin)) + Fraction(radius)) ** 2
