@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from reference_tracer.triangle import triangle_distance
+from reference_tracer.triangle import longest_axis, triangle_distance
 from reference_tracer.variants import cramer_triangle_distance, moeller_trumbore
+from reference_tracer.vector import cross, dot, subtract
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -65,3 +66,23 @@ def test_small_triangles_are_lost_by_a_fixed_epsilon_only(scale: float) -> None:
     ray = ((scale / 4, scale / 4, scale), (0.0, 0.0, -1.0))
     assert moeller_trumbore(*ray, *corners) == inf
     assert triangle_distance(*ray, *corners) == pytest.approx(scale, rel=1e-15)
+
+
+# Origin, direction and corners of the first of 5,461 in 400,000 random triangles in which a ray nearly lies: the scalar
+# product of its direction and the rounded normal is exactly 0, and yet it passes inside.
+EDGE_ON = """
+-0x1.5478f75337f58p-2 0x1.558b381cbb1e0p-1 -0x1.f8601cc2ccf80p-4
+0x1.95a3d718d6758p-2 -0x1.97b6cfb31b78cp-1 -0x1.6c9d190d04914p-2
+0x1.204d18c2002e0p+0 -0x1.ac8a7e20024eep+0 -0x1.3193b8642e0c7p+0
+0x1.eb40f86d4a080p-6 -0x1.ef8afdd5286edp-2 -0x1.3de05501af13cp-1
+0x1.9cd35a22eed77p-3 -0x1.71ad32c3acc59p-2 -0x1.2b59c09a80710p-1
+"""
+
+
+@pytest.mark.clause("TRI-1")
+def test_a_triangle_seen_edge_on_is_met_between_its_corners() -> None:
+    origin, direction, a, b, c = vectors(EDGE_ON)
+    assert dot(direction, cross(subtract(b, a), subtract(c, a))) == 0.0
+    axis = longest_axis(direction)
+    depths = [(corner[axis] - origin[axis]) / direction[axis] for corner in (a, b, c)]
+    assert min(depths) <= triangle_distance(origin, direction, a, b, c) <= max(depths)

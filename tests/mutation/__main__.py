@@ -1,7 +1,7 @@
 """Judge the mutants of the tracer's physics: `python -m tests.mutation [FILE…]`, or `make mutants`.
 
-Files that have not changed since they were judged are left out. Of those that are named all the same only the survivors
-are judged again: tests that are added can only kill more. The results go to tests/mutation/results.json and
+Files that have not changed since they were judged are left out. Of those that are named all the same only those that
+survived the tests are judged again, by the tests: added ones can only kill more. The results go to results.json and
 docs/mutants.md. Exit status 1 where a survivor of the tests has no reason, 2 where the tests fail without any mutant.
 """
 
@@ -19,7 +19,15 @@ from tempfile import TemporaryDirectory
 from tests.mutation import by_tests
 from tests.mutation.mutants import PHYSICS, Mutant, digest_of, mutants_of
 from tests.mutation.page import write_page
-from tests.mutation.results import FileResults, judged, read_reasons, read_results, unaccounted, write_results
+from tests.mutation.results import (
+    FileResults,
+    Survivor,
+    judged,
+    read_reasons,
+    read_results,
+    unaccounted,
+    write_results,
+)
 
 JOBS = os.cpu_count() or 1
 
@@ -65,24 +73,31 @@ def judge_files(files: list[str], folder: Path) -> bool:
     with ProcessPoolExecutor(JOBS, context, _take_copy, (free,)) as pool:
         for file in files:
             start = time.monotonic()
-            mutants = to_judge(file)
-            outcomes = list(pool.map(_by_tests, mutants))
-            scenes = _by_matrix(mutants, folder)
-            counts = FileResults(
-                digest=digest_of(file), mutants=len(mutants_of(file)), survivors=judged(mutants, outcomes, scenes)
-            )
+            if has_changed(file):
+                mutants = mutants_of(file)
+                outcomes = list(pool.map(_by_tests, mutants))
+                survivors = judged(mutants, outcomes, _by_matrix(mutants, folder))
+            else:
+                mutants = [mutant for mutant in mutants_of(file) if is_survivor(mutant)]
+                survivors = judged_again(file, dict(zip(mutants, pool.map(_by_tests, mutants), strict=True)))
+            counts = FileResults(digest=digest_of(file), mutants=len(mutants_of(file)), survivors=survivors)
             write_results(read_results().with_file(file, counts))
             told = f"{counts.killed_by_tests} killed by the tests, {counts.killed_by_matrix} by the matrix"
             print(f"{file}.py: of {counts.mutants} mutants {told}; {time.monotonic() - start:.0f} s", flush=True)
     return True
 
 
-def to_judge(file: str) -> list[Mutant]:
-    """All mutants of a file that has changed; the survivors of one that has not."""
-    if has_changed(file):
-        return mutants_of(file)
-    survivors = {one.key for one in read_results().files[file].survivors}
-    return [mutant for mutant in mutants_of(file) if mutant.key in survivors]
+def is_survivor(mutant: Mutant) -> bool:
+    """Whether the tests left it alive when they last judged it."""
+    return mutant.key in {one.key for one in read_results().files[mutant.file].survivors_of_tests}
+
+
+def judged_again(file: str, outcomes: dict[Mutant, str]) -> list[Survivor]:
+    """The file's survivors, with what the tests say now of those that they had left alive; one may share its line."""
+    left = {mutant.key for mutant, outcome in outcomes.items() if outcome == "survived"}
+    kept = read_results().files[file].survivors
+    now = [one if one.key in left else one.model_copy(update={"tests": "killed"}) for one in kept]
+    return [one for one in now if one.key in left or one.survives_matrix]
 
 
 _copy = Path()

@@ -25,6 +25,11 @@ class Survivor(BaseModel):
     matrix: str
     """The scene that kills it, `survived`, or `not planted`."""
 
+    @property
+    def survives_matrix(self) -> bool:
+        """Whether no scene kills it."""
+        return self.matrix in {"survived", "not planted"}
+
 
 class FileResults(BaseModel):
     """All mutants of one file."""
@@ -42,7 +47,7 @@ class FileResults(BaseModel):
     @property
     def killed_by_matrix(self) -> int:
         """How many."""
-        return self.mutants - sum(one.matrix in {"survived", "not planted"} for one in self.survivors)
+        return self.mutants - sum(one.survives_matrix for one in self.survivors)
 
     @property
     def survivors_of_tests(self) -> list[Survivor]:
@@ -70,7 +75,7 @@ def judged(mutants: Iterable[Mutant], by_tests: Iterable[str], by_matrix: Iterab
     """The survivors among mutants with these outcomes."""
     outcomes = zip(mutants, by_tests, by_matrix, strict=True)
     all_of_them = [Survivor(key=mutant.key, tests=tests, matrix=matrix) for mutant, tests, matrix in outcomes]
-    return [one for one in all_of_them if one.tests == "survived" or one.matrix in {"survived", "not planted"}]
+    return [one for one in all_of_them if one.tests == "survived" or one.survives_matrix]
 
 
 def read_results() -> Results:

@@ -4,7 +4,7 @@ from math import inf
 
 import pytest
 
-from reference_tracer.triangle import triangle_distance, triangle_normal
+from reference_tracer.triangle import longest_axis, triangle_distance, triangle_normal
 
 A, B, C = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 DOWN = (0.0, 0.0, -1.0)
@@ -34,6 +34,35 @@ def test_inside_and_edges_are_hit_from_both_sides(
     a, b, c = corners
     assert triangle_distance((x, y, 2.0), DOWN, a, b, c) == (2.0 if hits else inf)
     assert triangle_distance((x, y, -2.0), (0.0, 0.0, 1.0), a, b, c) == (2.0 if hits else inf)
+
+
+@pytest.mark.clause("TRI-1", "TRI-3")
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_triangles_across_every_axis_are_hit_from_both_sides(axis: int, side: float) -> None:
+    def turned(x: float, y: float, z: float) -> tuple[float, float, float]:
+        return ((z, x, y), (y, z, x), (x, y, z))[axis]
+
+    for b, c in ((B, C), (C, B)):
+        corners = (turned(*A), turned(*b), turned(*c))
+        assert triangle_distance(turned(0.25, 0.25, 2.0 * side), turned(0.0, 0.0, -side), *corners) == 2.0
+
+
+@pytest.mark.clause("TRI-1")
+@pytest.mark.parametrize(
+    ("direction", "axis"),
+    [
+        ((-3.0, 1.0, 2.0), 0),
+        ((1.0, -3.0, 2.0), 1),
+        ((1.0, 2.0, -3.0), 2),
+        ((1.0, -1.0, 0.0), 1),
+        ((-1.0, 0.0, 1.0), 2),
+        ((0.0, 1.0, -1.0), 2),
+        ((1.0, 1.0, 1.0), 2),
+    ],
+)
+def test_of_equally_long_axes_the_last_is_the_longest(direction: tuple[float, float, float], axis: int) -> None:
+    assert longest_axis(direction) == axis
 
 
 @pytest.mark.clause("TRI-1", "TRI-3")
