@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from multiprocessing import get_context
 from typing import TYPE_CHECKING
 
 import pytest
@@ -15,6 +17,7 @@ from tests.mutation.page import PAGE, block
 from tests.mutation.results import read_reasons, read_results, unaccounted
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
 pytestmark = pytest.mark.clause("PRJ-7")
@@ -58,11 +61,26 @@ def test_each_mutant_is_one_changed_place_of_a_function_or_constant(file: str) -
 
 
 @pytest.fixture(scope="module")
-def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def process() -> Iterator[ProcessPoolExecutor]:
+    """A process without threads, from which others may be forked."""
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        yield pool
+
+
+@pytest.fixture(scope="module")
+def copy(process: ProcessPoolExecutor, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("project")
     by_tests.copy_project(folder)
-    assert by_tests.run_without_mutant(folder, TESTS_OF_REFLECTION)
+    assert process.submit(by_tests.run_without_mutant, folder, TESTS_OF_REFLECTION).result()
     return folder
+
+
+@pytest.fixture
+def judged(process: ProcessPoolExecutor, copy: Path) -> Callable[[str, str], str]:
+    def by_tests_of_reflection(before: str, after: str) -> str:
+        return process.submit(by_tests.judge, made(before, after), copy, TESTS_OF_REFLECTION).result()
+
+    return by_tests_of_reflection
 
 
 class _Made(Mutant):
@@ -80,8 +98,8 @@ def made(before: str, after: str) -> Mutant:
 BODY = "return along(direction, normal, -2.0 * dot(direction, normal))"
 
 
-def test_what_changes_nothing_survives_the_tests(copy: Path) -> None:
-    assert by_tests.judge(made(BODY, BODY.replace("-2.0", "-2.00")), copy, TESTS_OF_REFLECTION) == "survived"
+def test_what_changes_nothing_survives_the_tests(judged: Callable[[str, str], str]) -> None:
+    assert judged(BODY, BODY.replace("-2.0", "-2.00")) == "survived"
 
 
 @pytest.mark.parametrize(
@@ -94,11 +112,11 @@ def test_what_changes_nothing_survives_the_tests(copy: Path) -> None:
     ],
 )
 def test_what_is_wrong_is_killed_by_the_tests_and_leaves_the_copy_as_it_was(
-    copy: Path, after: str, outcome: str
+    judged: Callable[[str, str], str], copy: Path, after: str, outcome: str
 ) -> None:
-    assert by_tests.judge(made(BODY, after), copy, TESTS_OF_REFLECTION) == outcome
+    assert judged(BODY, after) == outcome
     assert (copy / "reference_tracer" / "reflection.py").read_text(encoding="utf-8") == text_of("reflection")
-    assert by_tests.judge(made(BODY, BODY), copy, TESTS_OF_REFLECTION) == "survived"
+    assert judged(BODY, BODY) == "survived"
 
 
 def test_the_matrix_kills_a_mutant_and_leaves_what_changes_nothing(tmp_path: Path) -> None:

@@ -1,7 +1,7 @@
 """Judge the mutants of the tracer's physics: `python -m tests.mutation [FILE…]`, or `make mutants`.
 
-Files that have not changed since they were judged are left out. Of those that are named all the same only those that
-survived the tests are judged again, by the tests: added ones can only kill more. The results go to results.json and
+Files that have not changed since they were judged are left out. Of those that are named all the same, what the tests had
+left alive without a reason is judged by them again: added tests can only kill more. The results go to results.json and
 docs/mutants.md. Exit status 1 where a survivor of the tests has no reason, 2 where the tests fail without any mutant.
 """
 
@@ -78,7 +78,7 @@ def judge_files(files: list[str], folder: Path) -> bool:
                 outcomes = list(pool.map(_by_tests, mutants))
                 survivors = judged(mutants, outcomes, _by_matrix(mutants, folder))
             else:
-                mutants = [mutant for mutant in mutants_of(file) if is_survivor(mutant)]
+                mutants = [mutant for mutant in mutants_of(file) if is_open(mutant)]
                 survivors = judged_again(file, dict(zip(mutants, pool.map(_by_tests, mutants), strict=True)))
             counts = FileResults(digest=digest_of(file), mutants=len(mutants_of(file)), survivors=survivors)
             write_results(read_results().with_file(file, counts))
@@ -87,17 +87,19 @@ def judge_files(files: list[str], folder: Path) -> bool:
     return True
 
 
-def is_survivor(mutant: Mutant) -> bool:
-    """Whether the tests left it alive when they last judged it."""
-    return mutant.key in {one.key for one in read_results().files[mutant.file].survivors_of_tests}
+def is_open(mutant: Mutant) -> bool:
+    """Whether the tests left it alive when they last judged it, and nobody has said why that is right."""
+    survivors = {one.key for one in read_results().files[mutant.file].survivors_of_tests}
+    return mutant.key in survivors - read_reasons().files.get(mutant.file, {}).keys()
 
 
 def judged_again(file: str, outcomes: dict[Mutant, str]) -> list[Survivor]:
     """The file's survivors, with what the tests say now of those that they had left alive; one may share its line."""
     left = {mutant.key for mutant, outcome in outcomes.items() if outcome == "survived"}
+    killed = {mutant.key for mutant in outcomes} - left
     kept = read_results().files[file].survivors
-    now = [one if one.key in left else one.model_copy(update={"tests": "killed"}) for one in kept]
-    return [one for one in now if one.key in left or one.survives_matrix]
+    now = [one.model_copy(update={"tests": "killed"}) if one.key in killed else one for one in kept]
+    return [one for one in now if one.tests == "survived" or one.survives_matrix]
 
 
 _copy = Path()
