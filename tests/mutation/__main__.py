@@ -1,8 +1,8 @@
 """Judge the mutants of the tracer's physics: `python -m tests.mutation [FILE…]`, or `make mutants`.
 
-Files that have not changed since they were judged are left out. Of those that are named all the same, what the tests had
-left alive without a reason is judged by them again: added tests can only kill more. The results go to results.json and
-docs/mutants.md. Exit status 1 where a survivor of the tests has no reason, 2 where the tests fail without any mutant.
+Files that have not changed since they were judged are left out. Of those that are named all the same, what the tests
+had left alive without a reason is judged by them again: added tests can only kill more. The results go to results.json
+and docs/mutants.md. Exit status 1 where a survivor of the tests has no reason, 2 where tests fail without a mutant.
 """
 
 from __future__ import annotations
