@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import Bounds, LinearConstraint, milp
 
 from comparisons.kill_matrix import small
 from scenes.exporters.json_scene import export_json
@@ -42,6 +41,8 @@ def smallest_cover(killers: Sequence[set[str]], costs: Mapping[str, float]) -> t
 
     Exact: a set cover is an integer program, which HiGHS solves (scipy.optimize.milp) in a fraction of a second.
     """
+    from scipy.optimize import Bounds, LinearConstraint, milp  # noqa: PLC0415 - half a second, which `run` needs not
+
     if not killers:
         return ()
     names = sorted(costs)
