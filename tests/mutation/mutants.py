@@ -13,28 +13,12 @@ from cosmic_ray.ast.ast_query import ASTQuery
 from cosmic_ray.mutating import mutate_code
 from cosmic_ray.plugins import get_operator, operator_names
 
+from reference_tracer.instantiation import SOURCE_FILES
+
 ROOT = Path(__file__).parents[2]
 
-# What is instantiated into kernels (reference_tracer/instantiation.py), without scene_data.py: that is the numbering of
-# tables, which holds no physics.
-PHYSICS = (
-    "vector",
-    "camera",
-    "compensated",
-    "sphere",
-    "triangle",
-    "bounding_volume",
-    "traversal",
-    "background",
-    "texture",
-    "reflection",
-    "refraction",
-    "shadow",
-    "illumination",
-    "dielectric",
-    "ray_tree",
-    "image",
-)
+# What kernels are made of, without scene_data.py: that is the numbering of tables, which holds no physics.
+PHYSICS = tuple(file for file in SOURCE_FILES if file != "scene_data")
 
 # Left out: what floats have no meaning for (bits, shifts, identity), and whole parts and powers in place of a sum,
 # which any test at all notices. They would only flatter the score.
