@@ -17,6 +17,7 @@ from comparisons.feasible_set import feasible_set
 from comparisons.judgement import distances_in_tolerances, judge_first_hits
 from comparisons.output_model import OutputModel
 from comparisons.public_gates import gates_that_reject
+from comparisons.quick_suite import small
 from comparisons.renderer import FirstHits, Rays
 from comparisons.time_limit import TookTooLongError, cpu_seconds
 from reference_tracer.arithmetic import FLOAT, MATH, Arithmetic
@@ -35,8 +36,6 @@ if TYPE_CHECKING:
     from comparisons.feasible_set import FeasibleSet
     from scenes.scene import Scene
 
-# Twenty columns by fifteen rows: as few as show every fault of the catalogue in some scene of the library.
-MOST_PIXELS = 300
 # What a hundred times the right tracer's time is not enough for will not end; a second, so that noise does not count.
 LONGEST_SECONDS, TIMES_AS_LONG = 1.0, 20.0
 # What code that is wrong raises: division by zero, roots of negative numbers, complex powers, places that do not exist.
@@ -82,16 +81,6 @@ class SceneKills:
     cells: tuple[KillCell, ...]
     seconds: float
     """What it takes to judge one renderer by this scene: its feasible set, and one rendering."""
-
-
-def small(scene: Scene) -> Scene:
-    """The scene with both sides of its image divided by the least number that leaves no more than 300 pixels."""
-    camera = scene.camera
-    divisor = 1
-    while (camera.width // divisor) * (camera.height // divisor) > MOST_PIXELS:
-        divisor += 1
-    size = {"width": max(1, camera.width // divisor), "height": max(1, camera.height // divisor)}
-    return scene.model_copy(update={"camera": camera.model_copy(update=size)})
 
 
 def kills_on(scene: Scene, subjects: Iterable[Subject]) -> SceneKills:

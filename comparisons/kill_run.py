@@ -17,7 +17,7 @@ from comparisons.faults.variants import all_variants
 from comparisons.kill_matrix import KillCell, SceneKills, kills_on
 from comparisons.kill_results import RESULTS_FILE, FaultResult, KillResults, VariantResult
 from comparisons.public_gates import GATES
-from comparisons.quick_suite import smallest_cover
+from comparisons.set_cover import smallest_cover
 from reference_tracer.certified_image import collect_garbage_rarely
 from reference_tracer.source_digest import source_digest
 from scenes.library import open_scene

@@ -17,6 +17,7 @@ from comparisons.feasible_set import feasible_set
 from comparisons.image_judgement import Evidence
 from comparisons.images import write_image
 from comparisons.interruption import at_work, interruption_held_back, start_worker
+from comparisons.kept_versions import kept_version, tried_version
 from comparisons.renderer import Rays
 from comparisons.renderers.catalogue import all_renderers
 from comparisons.results import Cell, Verdict
@@ -25,7 +26,7 @@ from reference_tracer.rendering import primary_rays, render
 from scenes.library import open_scene
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
     from concurrent.futures import Future
     from pathlib import Path
 
@@ -51,17 +52,41 @@ class Plan:
     settled: tuple[Cell, ...]
     by_scene: dict[str, tuple[PlannedCell, ...]]
     """By what names the scene on the command line."""
+    versions: Mapping[str, str | None]
+    """Of each renderer; None where it cannot run here."""
 
 
 def plan_run(sources: Sequence[str], renderers: Sequence[str], directory: Path, *, fresh: bool) -> Plan:
     """Settle what is unavailable, incomparable, or already in the directory; the rest is to be rendered.
 
-    A cell is taken from the directory if its key (cell_key.py) is the same, unless `fresh`.
+    A cell is taken from the directory if its key (cell_key.py) is the same, unless `fresh`. Where nothing is left to
+    render, what renderers told of their versions earlier will do (kept_versions.py); else each is tried.
     """
+    kept = {} if fresh else {name: it for name in renderers if (it := kept_version(all_renderers()[name])) is not None}
+    versions = kept | _tried([name for name in renderers if name not in kept])
+    plan = _plan(sources, renderers, versions, directory, fresh=fresh)
+    if kept and plan.by_scene:
+        plan = _plan(sources, renderers, _tried(renderers), directory, fresh=fresh)
+    return plan
+
+
+def _tried(renderers: Sequence[str]) -> dict[str, str | None]:
+    """The version of each renderer; all are tried side by side, each in a process of its own."""
+    with ThreadPoolExecutor() as pool:
+        return dict(zip(renderers, pool.map(lambda name: tried_version(all_renderers()[name]), renderers), strict=True))
+
+
+def _plan(
+    sources: Sequence[str],
+    renderers: Sequence[str],
+    versions: Mapping[str, str | None],
+    directory: Path,
+    *,
+    fresh: bool,
+) -> Plan:
+    """The plan for renderers of these versions."""
     settled: list[Cell] = []
     by_scene: dict[str, tuple[PlannedCell, ...]] = {}
-    with ThreadPoolExecutor() as pool:  # each may wait for a trial in a process of its own
-        versions = dict(zip(renderers, pool.map(lambda name: all_renderers()[name].version(), renderers), strict=True))
     for source in sources:
         scene = open_scene(source)
         planned: list[PlannedCell] = []
@@ -77,7 +102,7 @@ def plan_run(sources: Sequence[str], renderers: Sequence[str], directory: Path, 
                     planned.append(step)
         if planned:
             by_scene[source] = tuple(planned)
-    return Plan(tuple(settled), by_scene)
+    return Plan(tuple(settled), by_scene, {name: versions[name] for name in renderers})
 
 
 def run_plan(plan: Plan, directory: Path, jobs: int) -> Iterator[Cell]:

@@ -6,15 +6,16 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from comparisons.kill_matrix import small
 from scenes.exporters.json_scene import export_json
 from scenes.library import open_scene
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
+    from scenes.scene import Scene
+
+# Twenty columns by fifteen rows: as few as show every fault of the catalogue in some scene of the library.
+MOST_PIXELS = 300
 QUICK_FOLDER = "quick-suite"
 QUICK_FILE = Path(__file__).with_name("quick_suite.json")
 
@@ -36,22 +37,11 @@ def write_quick_suite(directory: Path) -> tuple[str, ...]:
     return tuple(str(export_json(small(open_scene(name)), folder)) for name in quick_scenes())
 
 
-def smallest_cover(killers: Sequence[set[str]], costs: Mapping[str, float]) -> tuple[str, ...]:
-    """The cheapest scenes such that each fault is killed by one of them; `killers` are the scenes that kill a fault.
-
-    Exact: a set cover is an integer program, which HiGHS solves (scipy.optimize.milp) in a fraction of a second.
-    """
-    from scipy.optimize import Bounds, LinearConstraint, milp  # noqa: PLC0415 - half a second, which `run` needs not
-
-    if not killers:
-        return ()
-    names = sorted(costs)
-    rows = np.array([[name in scenes for name in names] for scenes in killers], dtype=np.float64)
-    solution = milp(
-        [costs[name] for name in names],
-        integrality=np.ones(len(names)),
-        bounds=Bounds(0, 1),
-        constraints=LinearConstraint(rows, lb=1),
-    )
-    assert solution.success, f"the set cover has a solution: {solution.message}"
-    return tuple(name for name, taken in zip(names, solution.x, strict=True) if taken > 0.5)
+def small(scene: Scene) -> Scene:
+    """The scene with both sides of its image divided by the least number that leaves no more than 300 pixels."""
+    camera = scene.camera
+    divisor = 1
+    while (camera.width // divisor) * (camera.height // divisor) > MOST_PIXELS:
+        divisor += 1
+    size = {"width": max(1, camera.width // divisor), "height": max(1, camera.height // divisor)}
+    return scene.model_copy(update={"camera": camera.model_copy(update=size)})

@@ -63,10 +63,15 @@ def _lock(handle: int, directory: Path) -> None:
 
 
 def write_results(
-    directory: Path, command: str, scenes: Sequence[Scene], renderers: Sequence[Renderer], cells: Sequence[Cell]
+    directory: Path,
+    command: str,
+    scenes: Sequence[Scene],
+    renderers: Sequence[tuple[Renderer, str | None]],
+    cells: Sequence[Cell],
 ) -> Results:
     """Write results.json: these cells, and those of earlier runs into this directory that these do not replace.
 
+    Beside each renderer stands its version, None where it cannot run here.
     Where that changes nothing, the file stays as it is, with the date of the results that it holds.
     """
     earlier = _earlier(directory)
@@ -78,7 +83,7 @@ def write_results(
         command=command,
         machine=_machine(),
         scenes=_by_name((*(earlier.scenes if earlier else ()), *(_scene_record(scene) for scene in scenes))),
-        renderers=_by_name((*(earlier.renderers if earlier else ()), *(_renderer_record(r) for r in renderers))),
+        renderers=_by_name((*(earlier.renderers if earlier else ()), *(_renderer_record(*pair) for pair in renderers))),
         cells=tuple(sorted((*kept, *cells), key=lambda cell: cell.scene)),
     )
     if earlier is not None and results.model_copy(update={"created": earlier.created}) == earlier:
@@ -158,10 +163,10 @@ def _scene_record(scene: Scene) -> SceneRecord:
     )
 
 
-def _renderer_record(renderer: Renderer) -> RendererRecord:
+def _renderer_record(renderer: Renderer, its_version: str | None) -> RendererRecord:
     return RendererRecord(
         name=renderer.name,
-        version=renderer.version(),
+        version=its_version,
         install=renderer.install,
         error_model=renderer.error_model.description,
         integrators={integrator.name: integrator.light_paths.format(depth="n") for integrator in renderer.integrators},

@@ -99,15 +99,15 @@ def run(
         except KeyboardInterrupt:
             # What is finished can be shown, and the next run goes on from there.
             finished = plan_run(sources, list(selected), out, fresh=False).settled
-            write_results(
-                out, _command(), opened, list(selected.values()), _waived(known_failures, finished, selected)[0]
-            )
+            waived, _ = apply_waivers(known_failures, finished, plan.versions)
+            write_results(out, _command(), opened, _with_versions(selected, plan), waived)
             raise
-        cells, unmatched = _waived(known_failures, cells, selected)
-        results = write_results(out, _command(), opened, list(selected.values()), cells)
+        cells, unmatched = apply_waivers(known_failures, cells, plan.versions)
+        results = write_results(out, _command(), opened, _with_versions(selected, plan), cells)
         report = write_html_report(out, unless_current=True)
     _show(results, report, as_json)
-    return _status(cells, required.values(), unmatched)
+    missing = [renderer for name, renderer in required.items() if plan.versions[name] is None]
+    return _status(cells, missing, unmatched)
 
 
 def _waivers(path: Path | None) -> tuple[Waiver, ...]:
@@ -118,10 +118,8 @@ def _waivers(path: Path | None) -> tuple[Waiver, ...]:
         raise UsageError(str(error)) from error
 
 
-def _waived(
-    known_failures: Iterable[Waiver], cells: Sequence[Cell], selected: Mapping[str, Renderer]
-) -> tuple[list[Cell], list[str]]:
-    return apply_waivers(known_failures, cells, {name: renderer.version() for name, renderer in selected.items()})
+def _with_versions(selected: Mapping[str, Renderer], plan: Plan) -> list[tuple[Renderer, str | None]]:
+    return [(renderer, plan.versions[name]) for name, renderer in selected.items()]
 
 
 def _split(names: Iterable[str]) -> list[str]:
@@ -164,8 +162,7 @@ def _show(results: Results, report: Path, as_json: bool) -> None:
         print_matrix(results, Console(), report)
 
 
-def _status(cells: Sequence[Cell], required: Iterable[Renderer], unmatched: Sequence[str]) -> int:
-    missing = [renderer for renderer in required if renderer.version() is None]
+def _status(cells: Sequence[Cell], missing: Sequence[Renderer], unmatched: Sequence[str]) -> int:
     for renderer in missing:
         print(f"raytruth: {renderer.name} is required and not installed: {renderer.install}", file=sys.stderr)
     for sentence in unmatched:

@@ -30,7 +30,7 @@ def truthful(scene: Scene, folder: Path) -> Rendering:
 
 @dataclass
 class Pretender:
-    """Obeys comparisons.renderer.Renderer; counts how often it is asked to render."""
+    """Obeys comparisons.renderer.Renderer; counts how often it is tried and asked to render."""
 
     answer: Callable[[Scene, Path], Rendering] = truthful
     name: str = "pretender"
@@ -40,9 +40,11 @@ class Pretender:
     error_model: ErrorModel = field(default_factory=lambda: ErrorModel("float64", precision_bits=51))
     install: str = "cannot be installed"
     calls: int = 0
+    trials: int = 0
 
     def version(self) -> str | None:
         """As told."""
+        self.trials += 1
         return self.installed
 
     def refuses(self, scene: Scene) -> str | None:  # noqa: ARG002 - the protocol's signature

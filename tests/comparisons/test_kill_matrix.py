@@ -9,12 +9,11 @@ import pytest
 from comparisons.faults.catalogue import all_faults
 from comparisons.faults.fault import STUDENT, Subject
 from comparisons.faults.variants import all_variants
-from comparisons.kill_matrix import MOST_PIXELS, applies, kills_on, rendered, small
+from comparisons.kill_matrix import applies, kills_on, rendered
 from comparisons.output_model import OutputModel
 from comparisons.public_gates import GATES
 from reference_tracer.triangle import triangle_normal
 from reference_tracer.vector import normalize
-from scenes.library import library_names, open_scene
 from tests.reference_tracer.kernels import kept_precision
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene
 
@@ -100,14 +99,6 @@ def test_faults_of_first_hits_are_judged_by_first_hits() -> None:
     right = replace(faults[0], name="right", overrides={"normalize": normalize})
     cells = {cell.subject: cell for cell in kills_on(library_scene("sphere-over-floor"), [*faults, right]).cells}
     assert {name for name, cell in cells.items() if cell.fails} == {fault.name for fault in faults}
-
-
-@pytest.mark.parametrize("name", library_names())
-def test_small_images_have_the_shape_of_the_scene_and_no_more_pixels_than_stated(name: str) -> None:
-    camera, smaller = open_scene(name).camera, small(open_scene(name)).camera
-    assert smaller.width * smaller.height <= MOST_PIXELS
-    assert smaller.width * smaller.height > MOST_PIXELS / 3
-    assert smaller.width / smaller.height == pytest.approx(camera.width / camera.height, rel=0.05)
 
 
 def test_float32_is_really_used() -> None:

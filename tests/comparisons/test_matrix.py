@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from comparisons import cell_key, matrix
+from comparisons import cell_key, kept_versions, matrix
 from comparisons.cell import CELL_FILE
 from comparisons.error_model import ErrorModel
 from comparisons.feasible_set import feasible_set
@@ -55,9 +55,10 @@ def scene_file(folder: Path, name: str = "small", **changes: Any) -> str:
 
 
 @pytest.fixture
-def pretender(monkeypatch: pytest.MonkeyPatch) -> Pretender:
+def pretender(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Pretender:
     """The one renderer there is; scenes are rendered in this process, where it can be counted."""
     renderer = Pretender()
+    monkeypatch.setattr(kept_versions, "cache_folder", lambda: tmp_path / "cache")
     monkeypatch.setattr(matrix, "all_renderers", lambda: {"pretender": renderer})
     monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
     return renderer
@@ -111,6 +112,39 @@ def test_a_second_run_has_nothing_to_do_and_tells_the_same(pretender: Pretender,
     assert pretender.calls == 1
 
 
+def forget_version(folder: Path) -> None:
+    """As when what a trial depends on has changed."""
+    (folder / "cache" / "versions" / "pretender.txt").unlink()
+
+
+def test_where_nothing_is_to_render_no_renderer_is_tried(pretender: Pretender, tmp_path: Path) -> None:
+    source, out = scene_file(tmp_path), tmp_path / "out"
+    ran([source], out)
+    assert pretender.trials == 1
+    assert plan([source], out).versions == {"pretender": "pretender 1"}
+    assert pretender.trials == 1
+    forget_version(tmp_path)
+    assert plan([source], out).by_scene == {}
+    assert pretender.trials == 2
+
+
+def test_before_anything_is_rendered_the_renderer_is_tried_again(pretender: Pretender, tmp_path: Path) -> None:
+    source, out = scene_file(tmp_path), tmp_path / "out"
+    ran([source], out)
+    pretender.installed = None
+    more = plan([source, scene_file(tmp_path, "more")], out)
+    assert more.versions == {"pretender": None}
+    assert {cell.verdict for cell in more.settled} == {Verdict.UNAVAILABLE}
+    assert more.by_scene == {}
+
+
+def test_fresh_tries_again(pretender: Pretender, tmp_path: Path) -> None:
+    source, out = scene_file(tmp_path), tmp_path / "out"
+    ran([source], out)
+    pretender.installed = None
+    assert plan([source], out, fresh=True).versions == {"pretender": None}
+
+
 def test_fresh_renders_again(pretender: Pretender, tmp_path: Path) -> None:
     source, out = scene_file(tmp_path), tmp_path / "out"
     ran([source], out)
@@ -124,6 +158,7 @@ def test_another_version_or_scene_or_code_of_ours_is_rendered_again(
     source, out = scene_file(tmp_path), tmp_path / "out"
     ran([source], out)
     pretender.installed = "pretender 2"
+    forget_version(tmp_path)
     assert ran([source], out)[0].version == "pretender 2"
     assert pretender.calls == 2
     scene_file(tmp_path, materials={"m": {"diffuse": {"reflectance": [1, 0.5, 0.5]}}})

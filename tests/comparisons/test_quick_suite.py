@@ -1,36 +1,17 @@
 from __future__ import annotations
 
-from itertools import combinations
 from typing import TYPE_CHECKING
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from comparisons import quick_suite
-from comparisons.kill_matrix import small
-from comparisons.quick_suite import quick_scenes, smallest_cover, write_quick_scenes, write_quick_suite
-from scenes.library import open_scene
+from comparisons.quick_suite import MOST_PIXELS, quick_scenes, small, write_quick_scenes, write_quick_suite
+from scenes.library import library_names, open_scene
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 pytestmark = pytest.mark.clause("VER-12")
-
-NAMES = "abcde"
-
-
-@given(
-    st.lists(st.sets(st.sampled_from(NAMES), min_size=1), max_size=8),
-    st.lists(st.integers(1, 9), min_size=5, max_size=5),
-)
-def test_the_cover_covers_and_none_is_cheaper(killers: list[set[str]], costs: list[int]) -> None:
-    cost = dict(zip(NAMES, map(float, costs), strict=True))
-    found = smallest_cover(killers, cost)
-    assert all(scenes & set(found) for scenes in killers)
-    subsets = [set(some) for size in range(6) for some in combinations(NAMES, size)]
-    covering = [some for some in subsets if all(scenes & some for scenes in killers)]
-    assert sum(cost[name] for name in found) == min(sum(cost[name] for name in some) for some in covering)
 
 
 def test_the_suite_is_written_as_small_scene_files(tmp_path: Path) -> None:
@@ -45,3 +26,11 @@ def test_another_suite_takes_its_place(tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.setattr(quick_suite, "QUICK_FILE", tmp_path / "quick.json")
     write_quick_scenes(["single-sphere"])
     assert quick_scenes() == ("single-sphere",)
+
+
+@pytest.mark.parametrize("name", library_names())
+def test_small_images_have_the_shape_of_the_scene_and_no_more_pixels_than_stated(name: str) -> None:
+    camera, smaller = open_scene(name).camera, small(open_scene(name)).camera
+    assert smaller.width * smaller.height <= MOST_PIXELS
+    assert smaller.width * smaller.height > MOST_PIXELS / 3
+    assert smaller.width / smaller.height == pytest.approx(camera.width / camera.height, rel=0.05)

@@ -33,7 +33,8 @@ def scene(name: str, purpose: str = "A test.") -> Scene:
 
 
 def written(folder: Path, cells: list[Cell], scenes: list[Scene], **pretender: Any) -> Results:
-    return write_results(folder, "raytruth run", scenes, [Pretender(**pretender)], cells)
+    renderer = Pretender(**pretender)
+    return write_results(folder, "raytruth run", scenes, [(renderer, renderer.installed)], cells)
 
 
 def read(folder: Path) -> Results:
