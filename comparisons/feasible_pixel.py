@@ -50,17 +50,18 @@ class PixelEvaluator:
         self.depth = scene.max_depth
         self.medium = -1 if scene.camera.inside is None else list(scene.materials).index(scene.camera.inside)
         self.merged = False
+        self.may_merge = True
         self._primary: tuple[tuple[int, int], tuple[Any, Any]] | None = None
 
-    def colors(self, column: int, line: int) -> tuple[list[Box], bool]:
+    def colors(self, column: int, line: int, *, may_merge: bool = True) -> tuple[list[Box], bool]:
         """The boxes of a pixel's feasible colours, and whether there were too many to tell apart.
 
         Raises UndecidableError, also where one box spans more than half of all that a ray of the scene may bring: such
-        a pixel would pass with almost any value.
+        a pixel would pass with almost any value; and as soon as outcomes must be merged, unless they may be.
         """
         origin, direction = self._primary_ray(column, line)
         white = (arb(1), arb(1), arb(1))
-        self.merged = False
+        self.merged, self.may_merge = False, may_merge
         boxes = self._outcomes((origin, direction, white, NOTHING, self.medium, self.depth), MOST_OUTCOMES)
         if self.bound is not None and 2 * widest(boxes) > self.bound.at_camera / 2:
             raise UndecidableError
@@ -96,7 +97,7 @@ class PixelEvaluator:
         try:
             steps = list(every_outcome(lambda: self._step(ray), self.rays.decisions, most))
         except TooManyOutcomesError:
-            self.merged = True
+            self._merge()
             return [self._anything(weight)]
         boxes: list[Box] = []
         for local, children in steps:
@@ -130,9 +131,14 @@ class PixelEvaluator:
             raise UndecidableError
         return self._from_black(weight, self.bound.radiance * self.excess)
 
+    def _merge(self) -> None:
+        if not self.may_merge:
+            raise UndecidableError
+        self.merged = True
+
     def _hull(self, boxes: list[Box]) -> list[Box]:
         """The one box that holds them all."""
-        self.merged = True
+        self._merge()
         red, green, blue = boxes[0]
         for box in boxes[1:]:
             red, green, blue = red.union(box[0]), green.union(box[1]), blue.union(box[2])

@@ -78,7 +78,8 @@ def feasible_set(
 ) -> FeasibleSet:
     """The feasible sets of all pixels of a scene; `overrides` replace functions of the tracer's source.
 
-    All pixels are evaluated in plain balls, which is quick; those that they leave open, or too wide, in linked ones.
+    All pixels are evaluated in plain balls, which is quick; in linked ones those of which plain ones say nothing, or
+    cannot tell all outcomes apart, and those whose boxes are wide beside the image's brightest value.
     Without colours only the feasible sets of first hits are made, and no pixel has an outcome.
     """
     bound = radiance_bound(scene)
@@ -92,19 +93,21 @@ def feasible_set(
         colors: list[_Colors | None] = []
         hits = []
         for pixel in pixels:
-            colors.append(_colors(plain_light, pixel) if with_colors else None)
+            colors.append(_colors(plain_light, pixel, may_merge=False) if with_colors else None)
             hits.append(_first_hits(plain, pixel))
-        widest_radius = WIDE * _brightest(colors)
-        wide = [place for place, color in enumerate(colors) if color is None or color.is_wide(widest_radius)]
-        wide = wide if with_colors else []
-        wide_hits = [place for place, hit in enumerate(hits) if hit is None]
-        if wide:
-            linked = PixelEvaluator(LinkedRays(scene, model_of_light, overrides), bound, FLOAT32_BITS)
-            for place in wide:
-                colors[place] = _colors(linked, pixels[place]) or colors[place]
-        if wide_hits:
+        if with_colors:
+            linked_light = PixelEvaluator(LinkedRays(scene, model_of_light, overrides), bound, FLOAT32_BITS)
+            unclear = {place for place, color in enumerate(colors) if color is None}
+            for place in unclear:
+                colors[place] = _colors(linked_light, pixels[place]) or _colors(plain_light, pixels[place])
+            widest_radius = WIDE * _brightest(colors)
+            wide = {place for place, color in enumerate(colors) if color and widest(color.boxes) > widest_radius}
+            for place in wide - unclear:
+                colors[place] = _colors(linked_light, pixels[place]) or colors[place]
+        unclear_hits = [place for place, hit in enumerate(hits) if hit is None]
+        if unclear_hits:
             linked = PixelEvaluator(LinkedRays(scene, error_model, overrides), bound, FLOAT32_BITS)
-            for place in wide_hits:
+            for place in unclear_hits:
                 hits[place] = _first_hits(linked, pixels[place])
         return _as_arrays(scene, error_model, colors, hits)
 
@@ -116,14 +119,10 @@ class _Colors:
     boxes: list[Box]
     merged: bool
 
-    def is_wide(self, widest_radius: float) -> bool:
-        """Whether a closer look is worth its time."""
-        return self.merged or widest(self.boxes) > widest_radius
 
-
-def _colors(evaluator: PixelEvaluator, pixel: tuple[int, int]) -> _Colors | None:
+def _colors(evaluator: PixelEvaluator, pixel: tuple[int, int], *, may_merge: bool = True) -> _Colors | None:
     try:
-        return _Colors(*evaluator.colors(*pixel))
+        return _Colors(*evaluator.colors(*pixel, may_merge=may_merge))
     except UndecidableError:
         return None
 
