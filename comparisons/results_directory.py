@@ -84,7 +84,7 @@ def write_results(
         machine=_machine(),
         scenes=_by_name((*(earlier.scenes if earlier else ()), *(_scene_record(scene) for scene in scenes))),
         renderers=_by_name((*(earlier.renderers if earlier else ()), *(_renderer_record(*pair) for pair in renderers))),
-        cells=tuple(sorted((*kept, *cells), key=lambda cell: cell.scene)),
+        cells=tuple(sorted((*kept, *cells), key=cell_place)),
     )
     if earlier is not None and results.model_copy(update={"created": earlier.created}) == earlier:
         return earlier

@@ -105,6 +105,14 @@ def test_cells_of_other_renderers_stay(tmp_path: Path) -> None:
     assert {c.renderer: c.verdict for c in read(tmp_path).cells} == {"one": Verdict.PASS, "two": Verdict.FAIL}
 
 
+def test_what_changes_nothing_leaves_the_file_as_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In whatever order the cells were finished, which differs between a run that renders and one that finds them."""
+    cells = [cell(scene, renderer) for scene in "ab" for renderer in ("one", "two", "three")]
+    first = written(tmp_path, cells, [scene("a"), scene("b")])
+    monkeypatch.setattr(results_directory, "write_whole", pytest.fail)
+    assert written(tmp_path, cells[::-1], [scene("a"), scene("b")]) == first
+
+
 def test_an_earlier_file_that_is_broken_or_of_another_version_is_replaced(tmp_path: Path) -> None:
     written(tmp_path, [cell("a")], [scene("a")])
     valid = (tmp_path / RESULTS_FILE).read_text(encoding="utf-8")

@@ -28,15 +28,32 @@ CYCLES_REQUIRED = REQUIRE_ALL and sys.version_info[:2] == (3, 11)  # there is a 
 SINGLE_LIGHT_LIMIT = 2e-5
 
 
-@pytest.fixture(scope="module")
-def results(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    out: Path = tmp_path_factory.mktemp("matrix") / "results"
+def run(out: Path) -> str:
+    """What the whole matrix prints, in a process of its own."""
     command = [sys.executable, "-m", "raytruth", "run", "--json", "--out", str(out)]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr[-4000:]
+    return run.stdout
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("matrix") / "results"
+
+
+@pytest.fixture(scope="module")
+def results(out: Path) -> dict[str, Any]:
+    document: dict[str, Any] = json.loads(run(out))
     assert (out / "report.html").stat().st_size > 0
-    document: dict[str, Any] = json.loads(run.stdout)
     return document
+
+
+@pytest.mark.clause("RES-3")
+def test_a_second_run_tells_the_same_and_leaves_every_file_as_it_is(results: dict[str, Any], out: Path) -> None:
+    files = {path: path.stat().st_mtime_ns for path in out.rglob("*") if path.is_file()}
+    assert len(files) > len(results["cells"]) / 2
+    assert json.loads(run(out)) == results
+    assert {path: path.stat().st_mtime_ns for path in out.rglob("*") if path.is_file()} == files
 
 
 def passing(results: dict[str, Any], integrator: str, feature: Feature | None, renderer: str = "mitsuba") -> set[str]:
