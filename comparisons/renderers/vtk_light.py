@@ -49,11 +49,10 @@ def refused_light(scene: Scene) -> str | None:
         refusal = _refused_material(material, scene)
         if refusal is not None:
             return refusal
-    for light in scene.lights:
-        if isinstance(light, PointLight) and isinstance(light.falloff, PolynomialFalloff):
-            nearest = _least_distance(scene, light)
-            if light.falloff.constant + nearest * (light.falloff.linear + nearest * light.falloff.quadratic) < 1:
-                return "it attenuates a light by no more than 1 however near it is, and VTK may brighten it there"
+    for number, light in enumerate(scene.lights):
+        refusal = _refused_place(light, number, scene)
+        if refusal is not None:
+            return refusal
     hidden = may_be_hidden(scene)
     return None if hidden is None else f"VTK throws no shadows, and {hidden}"
 
@@ -76,6 +75,20 @@ def _refused_material(material: Material, scene: Scene) -> str | None:
             f"VTK has highlights with exponents from {LEAST_EXPONENT:.3g}, below which its least cosine of "
             f"{LEAST_COSINE:g} shows, to {LARGEST_EXPONENT:g}"
         )
+    return None
+
+
+def _refused_place(light: Light, number: int, scene: Scene) -> str | None:
+    if not isinstance(light, PointLight):
+        return None
+    nearest = _least_distance(scene, light)
+    if nearest <= 0:
+        return f"its light {number} may be in a surface that it lights, and VTK divides by the distance"
+    falloff = light.falloff
+    if isinstance(falloff, PolynomialFalloff) and (
+        falloff.constant + nearest * (falloff.linear + nearest * falloff.quadratic) < 1
+    ):
+        return "it attenuates a light by no more than 1 however near it is, and VTK may brighten it there"
     return None
 
 

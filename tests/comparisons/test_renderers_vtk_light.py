@@ -231,6 +231,16 @@ def test_light_that_vtk_lacks_is_refused() -> None:
         assert reason in str(depth_or_reason(scene, Vtk(), LOCAL)), reason
 
 
+@pytest.mark.parametrize("weights", [(1, 0, 0), (0, 0.5, 0.5), (0.25, 0.25, 0.5), (0.2, 0.3, 0.5)])
+def test_a_light_in_a_surface_is_refused_and_one_beside_it_is_not(weights: tuple[float, float, float]) -> None:
+    """Of the direction to it VTK would make 0/0."""
+    place = np.array(weights) @ np.array(LEFT["vertices"])
+    inside = plates(lights=[SUN, POINT | {"position": tuple(place.tolist())}])
+    assert "light 1 may be in a surface" in str(depth_or_reason(inside, Vtk(), LOCAL))
+    beside = plates(lights=[SUN, POINT | {"position": tuple((place + np.array((0, 0, 0.01))).tolist())}])
+    assert "may be in" not in str(refused_light(beside))
+
+
 def test_what_makes_no_difference_is_not_refused() -> None:
     assert refused_light(plates(materials=shiny(model="blinn"), lights=[])) is None
     assert (
