@@ -13,10 +13,10 @@ import numpy as np
 from comparisons.cell import CELL_FILE, TRUTH_FILE, CellPlace, integrator_of, run_cell
 from comparisons.cell_key import cell_key
 from comparisons.comparability import depth_or_reason
-from comparisons.feasible_set import feasible_set
 from comparisons.image_judgement import Evidence
 from comparisons.images import write_image
 from comparisons.interruption import at_work, interruption_held_back, start_worker
+from comparisons.kept_feasible_sets import kept_feasible_set
 from comparisons.kept_versions import kept_version, tried_version
 from comparisons.renderer import Rays
 from comparisons.renderers.catalogue import all_renderers
@@ -185,7 +185,7 @@ def run_cells(source: str, planned: Sequence[PlannedCell], directory: Path) -> l
         integrator_of(renderer, cell.place.integrator).gives != "first hits"
         for cell, renderer in zip(planned, renderers, strict=True)
     )
-    feasible = feasible_set(scene, renderers[0].error_model, with_colors=has_image)
+    feasible = kept_feasible_set(scene, renderers[0].error_model, with_colors=has_image)
     evidence = Evidence(scene, _truth(scene), Rays(*primary_rays(scene)), feasible)
     return [
         run_cell(cell.place, renderer, cell.depth, evidence, directory)

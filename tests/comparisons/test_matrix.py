@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from comparisons import cell_key, kept_versions, matrix
+from comparisons import cell_key, kept_feasible_sets, kept_versions, matrix
 from comparisons.cell import CELL_FILE
 from comparisons.error_model import ErrorModel
 from comparisons.feasible_set import feasible_set
@@ -58,7 +58,8 @@ def scene_file(folder: Path, name: str = "small", **changes: Any) -> str:
 def pretender(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Pretender:
     """The one renderer there is; scenes are rendered in this process, where it can be counted."""
     renderer = Pretender()
-    monkeypatch.setattr(kept_versions, "cache_folder", lambda: tmp_path / "cache")
+    for module in (kept_versions, kept_feasible_sets):
+        monkeypatch.setattr(module, "cache_folder", lambda: tmp_path / "cache")
     monkeypatch.setattr(matrix, "all_renderers", lambda: {"pretender": renderer})
     monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
     return renderer
@@ -254,7 +255,8 @@ def test_the_feasible_set_is_made_once_for_renderers_of_one_error_model(
         made.append((model, options))
         return feasible_set(scene, model, **options)
 
-    monkeypatch.setattr(matrix, "feasible_set", recorded)
+    monkeypatch.setattr(kept_feasible_sets, "feasible_set", recorded)
+    monkeypatch.setattr(kept_feasible_sets, "cache_folder", lambda: tmp_path / "cache")
     other, third = (ErrorModel("float32", precision_bits=bits) for bits in (24, 23))
     both = (Integrator("whitted", WHITTED, has_depth=True, gives="image and first hits"),)
     renderers = {
