@@ -1,10 +1,9 @@
 from __future__ import annotations
 
-import json
 from collections.abc import Generator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -20,6 +19,7 @@ from comparisons.results import Cell, Verdict
 from reference_tracer.rendering import primary_rays
 from scenes.light_paths import WHITTED
 from tests.comparisons.pretending import Pretender, truthful
+from tests.comparisons.scene_files import scene_file
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,28 +30,6 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.clause("RES-3")
 
 FIRST_HITS = (Integrator("first-hits", "E", gives="first hits"),)
-BALL = {"shape": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}
-SCENE: dict[str, Any] = {
-    "purpose": "Small.",
-    "convention": "whitted",
-    "camera": {
-        "projection": "orthographic",
-        "position": [0.1, 0.2, 5],
-        "look_at": [0, 0, 0],
-        "width": 4,
-        "height": 3,
-        "view_height": 3,
-    },
-    "lights": [{"kind": "point", "position": [1, 2, 3], "intensity": [1, 1, 1], "falloff": "none"}],
-    "materials": {"m": {"diffuse": {"reflectance": [1, 0.5, 0.25]}}},
-    "objects": [BALL],
-}
-
-
-def scene_file(folder: Path, name: str = "small", **changes: Any) -> str:
-    path = folder / f"{name}.json"
-    path.write_text(json.dumps(SCENE | changes), encoding="utf-8")
-    return str(path)
 
 
 @pytest.fixture

@@ -9,38 +9,24 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import Any
 
 import pytest
+
+from tests.comparisons.scene_files import LAMP, scene_file
 
 pytestmark = pytest.mark.clause("RES-3", "RES-5")
 
 SCENES = 9
 FINISHED = 3
 """So many cells are waited for before the run is stopped."""
-SCENE: dict[str, Any] = {
-    "purpose": "Small.",
-    "convention": "whitted",
-    "camera": {
-        "projection": "orthographic",
-        "position": [0.1, 0.2, 5],
-        "look_at": [0, 0, 0],
-        "width": 32,
-        "height": 24,
-        "view_height": 3,
-    },
-    "lights": [{"kind": "point", "position": [1, 2, 3], "intensity": [1, 1, 1], "falloff": "none"}],
-    "materials": {"m": {"diffuse": {"reflectance": [1, 0.5, 0.25]}}},
-    "objects": [{"shape": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}],
-}
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     """The working directory, with some scenes."""
     for number in range(SCENES):
-        light = SCENE["lights"][0] | {"position": [1, 2, 3 + number]}
-        (tmp_path / f"scene-{number}.json").write_text(json.dumps(SCENE | {"lights": [light]}), encoding="utf-8")
+        light = LAMP | {"position": [1, 2, 3 + number]}
+        scene_file(tmp_path, f"scene-{number}", width=32, height=24, lights=[light])
     return tmp_path
 
 

@@ -16,6 +16,7 @@ from comparisons.renderers import catalogue
 from comparisons.results import RESULTS_FILE, Results
 from raytruth import run_command
 from tests.comparisons.pretending import Pretender, truthful
+from tests.comparisons.scene_files import scene_file
 from tests.raytruth.running import document, refusal, run
 
 if TYPE_CHECKING:
@@ -26,21 +27,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.clause("CMD-1", "CMD-2", "CMD-4")
 
-SCENE: dict[str, Any] = {
-    "purpose": "Small.",
-    "convention": "whitted",
-    "camera": {
-        "projection": "orthographic",
-        "position": [0.1, 0.2, 5],
-        "look_at": [0, 0, 0],
-        "width": 16,
-        "height": 12,
-        "view_height": 3,
-    },
-    "lights": [{"kind": "point", "position": [1, 2, 3], "intensity": [1, 1, 1], "falloff": "none"}],
-    "materials": {"m": {"diffuse": {"reflectance": [1, 0.5, 0.25]}}},
-    "objects": [{"shape": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}],
-}
+WIDTH, HEIGHT = 16, 12
 
 
 @pytest.fixture
@@ -48,7 +35,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The working directory, with a tiny scene in it; scenes are rendered in this process."""
     monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
     monkeypatch.chdir(tmp_path)
-    scene_file(tmp_path / "small.json")
+    scene_file(tmp_path, width=WIDTH, height=HEIGHT)
     return tmp_path
 
 
@@ -65,12 +52,6 @@ def pretender(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Pretender:  # no
     # Global metrics are measured in the tests of closed_form; each process that measures them takes a second to start.
     monkeypatch.setattr(run_command, "with_metrics", lambda _out, cells: cells)
     return renderer
-
-
-def scene_file(path: Path) -> str:
-    path.parent.mkdir(exist_ok=True)
-    path.write_text(json.dumps(SCENE), encoding="utf-8")
-    return str(path)
 
 
 def black(scene: Scene, folder: Path) -> Rendering:
@@ -123,7 +104,7 @@ def waiver_file(folder: Path, **changes: Any) -> str:
         "version": "pretender *",
         "scene": "small",
         "integrator": "whitted",
-        "most_failing_pixels": SCENE["camera"]["width"] * SCENE["camera"]["height"],
+        "most_failing_pixels": WIDTH * HEIGHT,
         "reason": "It is out of paint.",
         "link": "https://example.org/paint",
     }
@@ -217,7 +198,7 @@ def test_names_of_renderers_may_be_separated_by_commas(
 def test_bad_usage_is_one_sentence_before_any_work(
     arguments: list[str], expected: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    scene_file(folder / "elsewhere/small.json")
+    scene_file(folder / "elsewhere")
     assert expected in refusal(capsys, "run", *arguments)
     assert not (folder / "results").exists()
 
@@ -261,7 +242,7 @@ def test_json_of_an_infinite_error_is_still_json(pretender: Pretender, capsys: p
 
 @pytest.mark.clause("RES-4")
 def test_runs_into_one_directory_add_up(pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    scene_file(folder / "other.json")
+    scene_file(folder, "other")
     for scene in ("small.json", "other.json"):
         assert run(capsys, "run", scene, "--renderer", "pretender")[0] == 0
     assert [cell.scene for cell in results_in(folder / "results").cells] == ["other", "small"]
@@ -273,7 +254,7 @@ def test_an_interrupted_run_can_be_resumed(
     pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     names = ("a", "b", "c")
-    sources = [scene_file(folder / f"{name}.json") for name in names]
+    sources = [scene_file(folder, name) for name in names]
     assert run(capsys, "run", sources[0], "--renderer", "pretender")[0] == 0
     before = results_in(folder / "results")
 
