@@ -70,7 +70,7 @@ def rounded_ball_arithmetic(
 
     functions = _functions(decisions, constants)
     functions.update({name: _rounding(functions[name], about_one) for name in ("exp", "pi", "power", "sqrt", "tan")})
-    functions["rounded"] = rounded
+    functions |= {"rounded": rounded, "about_one": about_one}
     return Arithmetic(
         f"rounded balls of {precision_bits} bits",
         lambda value: stored_number(value, precision_bits),

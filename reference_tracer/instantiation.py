@@ -5,7 +5,7 @@ The source files are parsed and joined into one module, in which
 - a function may be overridden by another of the same signature (a variant, or a fault);
 - numeric literals are named constants, to be made of the kernel's number type;
 - for balls, comparisons and powers are calls, to be decided by three-valued logic;
-- for balls that follow a renderer's rounding, each operation is followed by a call that rounds it.
+- for balls that follow a renderer's rounding, each result of an operation is rounded.
 
 What comes out is a readable Python file, which is what runs and what the compiler sees.
 """
@@ -49,6 +49,7 @@ COMPILED_ENTRY_POINTS = ("render_rows", "first_hit_rows")
 ENTRY_POINTS = (*COMPILED_ENTRY_POINTS, "camera_frame", "primary_ray", "radiance_at", "trace_ray")
 """What Python calls: compiled kernels offer less, since every entry point costs time to compile."""
 
+LITERAL_PREFIX = "number_"
 COMPARISONS: dict[type[ast.cmpop], str] = {
     ast.Lt: "is_less",
     ast.Gt: "is_greater",
@@ -110,7 +111,7 @@ def kernel_source(
         if decided_comparisons or rounds:
             changed = copy.deepcopy(function.definition)
             changed = _ComparisonCalls().visit(changed) if decided_comparisons else changed
-            parts.append(ast.unparse(_RoundingCalls().visit(changed) if rounds else changed))
+            parts.append(ast.unparse(_Roundings().visit(changed) if rounds else changed))
         else:
             parts.append(function.text)
     return "\n".join(parts), {name: value for name, value in namer.names.items() if name in mentioned}
@@ -240,7 +241,7 @@ class _LiteralNamer(ast.NodeTransformer):
     def visit_Constant(self, node: ast.Constant) -> ast.expr:
         if not isinstance(node.value, float):
             return node
-        name = "number_" + repr(node.value).replace(".", "_").replace("-", "minus_").replace("+", "")
+        name = LITERAL_PREFIX + repr(node.value).replace(".", "_").replace("-", "minus_").replace("+", "")
         self.names[name] = node.value
         return ast.Name(id=name, ctx=ast.Load())
 
@@ -260,9 +261,22 @@ class _ComparisonCalls(ast.NodeTransformer):
         return node
 
 
-class _RoundingCalls(ast.NodeTransformer):
-    """Turns a + b into rounded(a + b), and so on."""
+class _Roundings(ast.NodeTransformer):
+    """Turns a * b into a * b * about_one, and so on; where whole numbers may be meant, a + b into rounded(a + b)."""
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
+        is_of_numbers = _is_of_numbers(node)
         node.left, node.right = self.visit(node.left), self.visit(node.right)
+        if is_of_numbers:
+            return ast.BinOp(left=node, op=ast.Mult(), right=ast.Name(id="about_one", ctx=ast.Load()))
         return ast.Call(func=ast.Name(id="rounded", ctx=ast.Load()), args=[node], keywords=[])
+
+
+def _is_of_numbers(node: ast.expr) -> bool:
+    """Whether an expression surely has the kernel's number type: whole numbers are only added and counted."""
+    if isinstance(node, ast.BinOp):
+        return isinstance(node.op, ast.Mult | ast.Div) or _is_of_numbers(node.left) or _is_of_numbers(node.right)
+    if isinstance(node, ast.UnaryOp):
+        return _is_of_numbers(node.operand)
+    is_coordinate = isinstance(node, ast.Subscript)
+    return is_coordinate or (isinstance(node, ast.Name) and node.id.startswith(LITERAL_PREFIX))

@@ -7,9 +7,10 @@ import pytest
 
 from reference_tracer import scene_data as layout
 from reference_tracer.arithmetic import FLOAT, make_kernel
-from reference_tracer.instantiation import COMPILED_ENTRY_POINTS, kernel_source, source_module
+from reference_tracer.instantiation import COMPILED_ENTRY_POINTS, exact_functions, kernel_source, source_module
 from reference_tracer.rendering import prepare, render
 from reference_tracer.tables import build_tables
+from reference_tracer.variants import PLAIN_FORMS
 from scenes.library import library_names, open_scene
 from scenes.requirements import Feature, required_features
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene
@@ -158,3 +159,66 @@ def test_decided_comparisons_leave_no_operator_to_compare_with() -> None:
     nodes = list(ast.walk(ast.parse(source)))
     assert not [node for node in nodes if isinstance(node, ast.Compare | ast.Pow)]
     assert {"is_less", "is_equal", "power"} <= names_in(source)
+
+
+class Unrounded(ast.NodeTransformer):
+    """Takes the roundings away again, and counts them."""
+
+    def __init__(self) -> None:
+        self.factors = self.calls = 0
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
+        self.generic_visit(node)
+        if isinstance(node.right, ast.Name) and node.right.id == "about_one":
+            self.factors += 1
+            return node.left
+        return node
+
+    def visit_Call(self, node: ast.Call) -> ast.expr:
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id == "rounded":
+            self.calls += 1
+            return node.args[0]
+        return node
+
+
+@pytest.mark.clause("ARI-3")
+def test_each_operation_is_rounded_once_and_nothing_else_is_changed() -> None:
+    exact, _ = kernel_source(set(Feature), PLAIN_FORMS, decided_comparisons=True)
+    rounded, _ = kernel_source(set(Feature), PLAIN_FORMS, decided_comparisons=True, rounded_operations=True)
+    unrounded = Unrounded()
+    assert ast.unparse(unrounded.visit(ast.parse(rounded))) == ast.unparse(ast.parse(exact))
+    functions = [f for f in ast.parse(exact).body if isinstance(f, ast.FunctionDef) and f.name not in exact_functions()]
+    operations = [n for function in functions for n in ast.walk(function) if isinstance(n, ast.BinOp)]
+    assert unrounded.factors + unrounded.calls == len(operations)
+    assert unrounded.factors > 5 * unrounded.calls  # calls take as long as the operations that they round
+
+
+@pytest.mark.clause("ARI-3")
+def test_whole_numbers_are_not_rounded() -> None:
+    text, _ = kernel_source(set(Feature), decided_comparisons=True, rounded_operations=True)
+    for operation in ("left - spheres", "spheres + triangle", "depth - 1", "column + line"):
+        assert f"rounded({operation})" in text
+
+
+def each_kind(origin: Any, direction: Any, distance: Any) -> Any:
+    """In place of `along`: sums and products of what is, or may not be, a number."""
+    sum_of_names = distance + origin
+    negative = -distance / origin
+    coordinate = origin[0] - distance
+    literal = -1.0 + distance
+    nested = distance + (origin - direction * distance)
+    return sum_of_names, negative, coordinate, literal, nested
+
+
+@pytest.mark.clause("ARI-3")
+def test_how_an_operation_is_rounded() -> None:
+    text, _ = kernel_source(set(Feature), {"along": each_kind}, rounded_operations=True)
+    for line in (
+        "sum_of_names = rounded(distance + origin)",
+        "negative = -distance / origin * about_one",
+        "coordinate = (origin[0] - distance) * about_one",
+        "literal = (-number_1_0 + distance) * about_one",
+        "nested = (distance + (origin - direction * distance * about_one) * about_one) * about_one",
+    ):
+        assert line in text
