@@ -9,8 +9,6 @@ import hashlib
 import zipfile
 import zlib
 from dataclasses import fields
-from pathlib import Path
-from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING
 
 import flint
@@ -18,10 +16,12 @@ import numpy as np
 
 from comparisons.cell_key import APART
 from comparisons.feasible_set import FeasibleSet, feasible_set
-from reference_tracer.compilation import cache_folder
+from reference_tracer.cache import cache_folder, written_whole
 from reference_tracer.source_digest import source_digest
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from comparisons.error_model import ErrorModel
     from scenes.scene import Scene
 
@@ -46,12 +46,10 @@ def _digest(*parts: str) -> str:
 
 
 def _write(path: Path, key: str, feasible: FeasibleSet) -> None:
-    """Whole or not at all. Most places for outcomes are unused, which compresses well."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+    """Most places for outcomes are unused, which compresses well."""
     arrays = {field.name: getattr(feasible, field.name) for field in fields(FeasibleSet)}
-    with NamedTemporaryFile(dir=path.parent, suffix=".tmp", delete=False) as file:
+    with written_whole(path) as file:
         np.savez_compressed(file, allow_pickle=False, key=np.array(key), **arrays)
-    Path(file.name).replace(path)
 
 
 def _read(path: Path, key: str) -> FeasibleSet | None:

@@ -14,8 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.cell_key import adapter_digest
-from comparisons.results_directory import write_whole
-from reference_tracer.compilation import cache_folder
+from reference_tracer.cache import cache_folder, written_whole
 from reference_tracer.source_digest import source_digest
 
 if TYPE_CHECKING:
@@ -44,7 +43,8 @@ def tried_version(renderer: Renderer) -> str | None:
     if version is None:
         _file(renderer).unlink(missing_ok=True)
     else:
-        write_whole(_file(renderer), f"{_circumstances(renderer)}\n{version}\n")
+        with written_whole(_file(renderer)) as file:
+            file.write(f"{_circumstances(renderer)}\n{version}\n".encode())
     return version
 
 

@@ -8,8 +8,6 @@ import math
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict
 from multiprocessing import get_context
-from pathlib import Path
-from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING
 
 from comparisons.faults.catalogue import all_faults
@@ -17,6 +15,7 @@ from comparisons.faults.variants import all_variants
 from comparisons.kill_matrix import KillCell, SceneKills, kills_on
 from comparisons.kill_results import RESULTS_FILE, FaultResult, KillResults, VariantResult
 from comparisons.public_gates import GATES
+from comparisons.results_directory import write_whole
 from comparisons.set_cover import smallest_cover
 from reference_tracer.certified_image import collect_garbage_rarely
 from reference_tracer.source_digest import source_digest
@@ -24,6 +23,7 @@ from scenes.library import open_scene
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
+    from pathlib import Path
 
     from comparisons.faults.fault import Subject
 
@@ -72,7 +72,7 @@ def kill_results(kills: Sequence[SceneKills], seconds: float) -> KillResults:
 
 def write_kill_results(directory: Path, results: KillResults) -> None:
     """Into the directory, whole or not at all."""
-    _write_whole(directory / RESULTS_FILE, results.model_dump_json(indent=1))
+    write_whole(directory / RESULTS_FILE, results.model_dump_json(indent=1))
 
 
 def _kills_of(source: str) -> SceneKills:
@@ -144,12 +144,4 @@ def _kept(directory: Path, source: str) -> SceneKills | None:
 
 
 def _keep(directory: Path, source: str, kills: SceneKills) -> None:
-    _write_whole(_kept_path(directory, source), json.dumps({"key": _key(source), **asdict(kills)}))
-
-
-def _write_whole(path: Path, text: str) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with NamedTemporaryFile("w", dir=path.parent, prefix=f".{path.name}-", delete=False, encoding="utf-8") as file:
-        file.write(text)
-    Path(file.name).chmod(0o644)
-    Path(file.name).replace(path)
+    write_whole(_kept_path(directory, source), json.dumps({"key": _key(source), **asdict(kills)}))

@@ -13,19 +13,18 @@ import zipfile
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from multiprocessing import get_context
-from pathlib import Path
-from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
 
 import flint
 import numpy as np
 
+from reference_tracer.cache import cache_folder, written_whole
 from reference_tracer.certification import TWO_ROUNDINGS, CertifiedPixel, Certifier, Enclosure, Undecided
-from reference_tracer.compilation import cache_folder
 from reference_tracer.source_digest import source_digest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
+    from pathlib import Path
 
     from numpy.typing import NDArray
 
@@ -194,9 +193,8 @@ def _joined(bands: Sequence[tuple[_Band, CertifiedImage]]) -> CertifiedImage:
 
 
 def _write(band: _Band, image: CertifiedImage) -> None:
-    band.folder.mkdir(parents=True, exist_ok=True)
     undecided = [[column, row, asdict(reason)] for (column, row), reason in image.undecided.items()]
-    with NamedTemporaryFile(dir=band.folder, suffix=".tmp", delete=False) as file:
+    with written_whole(band.file) as file:
         np.savez(
             file,
             middle=image.middle,
@@ -204,7 +202,6 @@ def _write(band: _Band, image: CertifiedImage) -> None:
             precision_bits=image.precision_bits,
             undecided=np.array(json.dumps(undecided)),
         )
-    Path(file.name).replace(band.file)
 
 
 def _read(band: _Band) -> CertifiedImage | None:

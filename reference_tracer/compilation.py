@@ -6,17 +6,15 @@ import ast
 import hashlib
 import importlib.util
 import math
-import os
 import sys
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numba
 import numpy as np
-from platformdirs import user_cache_path
 
 from reference_tracer import compiled_stack
+from reference_tracer.cache import cache_folder, written_whole
 from reference_tracer.instantiation import COMPILED_ENTRY_POINTS
 
 if TYPE_CHECKING:
@@ -86,11 +84,6 @@ def _call(function: str, *arguments: ast.expr) -> ast.Call:
     return ast.Call(func=_name(function), args=list(arguments), keywords=[])
 
 
-def cache_folder() -> Path:
-    """Where compiled kernels are kept: $RAYTRUTH_CACHE, or the user's cache folder."""
-    return Path(os.environ.get("RAYTRUTH_CACHE") or user_cache_path("raytruth"))
-
-
 def compiled_module(text: str) -> ModuleType:
     """Import the text from a file of its own, named by the hash of all that is compiled with it.
 
@@ -100,10 +93,8 @@ def compiled_module(text: str) -> ModuleType:
     everything = f"{numba.__version__}\n{np.__version__}\n{stack}\n{text}"
     path = cache_folder() / "kernels" / f"kernel_{hashlib.sha256(everything.encode()).hexdigest()[:16]}.py"
     if not path.exists():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile("w", dir=path.parent, suffix=".tmp", delete=False, encoding="utf-8") as file:
-            file.write(text)
-        Path(file.name).replace(path)
+        with written_whole(path) as file:
+            file.write(text.encode())
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None
