@@ -30,7 +30,7 @@ def written_whole(path: Path) -> Iterator[IO[bytes]]:
         unfinished = Path(file.name)
         try:
             yield file
-        except BaseException:
-            unfinished.unlink()
-            raise
-    unfinished.replace(path)
+            file.flush()
+            unfinished.replace(path)
+        finally:
+            unfinished.unlink(missing_ok=True)
