@@ -69,7 +69,7 @@ def run(
     waivers
         A JSON file of known failures that do not make the run fail, besides those that raytruth knows itself.
     fresh
-        Render every cell again.
+        Render and judge every cell again. What depends on no renderer, truth and feasible sets, is still taken over.
     quick
         Only the quick suite: few scenes with small images, which still find every fault of the catalogue
         (`raytruth faults`).
