@@ -34,7 +34,7 @@ class Arithmetic:
     decided_comparisons: bool = False
     """For balls: comparisons are calls, and forms that only rounding calls for are left out."""
     rounded_operations: bool = False
-    """Each result of an operation is rounded: by the function `rounded`, or by the factor `about_one`."""
+    """Each result of an operation is rounded: by the function `rounded`, or by the factor `roundoff_factor`."""
 
     def numbers(self, values: NDArray[np.float64]) -> Any:
         """One-dimensional values as numbers of this type: an array for compiled code, else a list, which is quicker."""

@@ -70,7 +70,9 @@ def rounded_ball_arithmetic(
 
     functions = _functions(decisions, constants)
     functions.update({name: _rounding(functions[name], about_one) for name in ("exp", "pi", "power", "sqrt", "tan")})
-    functions |= {"rounded": rounded, "about_one": about_one}
+    roundings = {"rounded": rounded, "roundoff_factor": about_one}
+    assert functions.keys().isdisjoint(roundings), "the kernel's constants have names of their own"
+    functions |= roundings
     return Arithmetic(
         f"rounded balls of {precision_bits} bits",
         lambda value: stored_number(value, precision_bits),

@@ -262,13 +262,13 @@ class _ComparisonCalls(ast.NodeTransformer):
 
 
 class _Roundings(ast.NodeTransformer):
-    """Turns a * b into a * b * about_one, and so on; where whole numbers may be meant, a + b into rounded(a + b)."""
+    """Turns a * b into a * b * roundoff_factor; where whole numbers may be meant, a + b into rounded(a + b)."""
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
         is_of_numbers = _is_of_numbers(node)
         node.left, node.right = self.visit(node.left), self.visit(node.right)
         if is_of_numbers:
-            return ast.BinOp(left=node, op=ast.Mult(), right=ast.Name(id="about_one", ctx=ast.Load()))
+            return ast.BinOp(left=node, op=ast.Mult(), right=ast.Name(id="roundoff_factor", ctx=ast.Load()))
         return ast.Call(func=ast.Name(id="rounded", ctx=ast.Load()), args=[node], keywords=[])
 
 

@@ -169,7 +169,7 @@ class Unrounded(ast.NodeTransformer):
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
         self.generic_visit(node)
-        if isinstance(node.right, ast.Name) and node.right.id == "about_one":
+        if isinstance(node.right, ast.Name) and node.right.id == "roundoff_factor":
             self.factors += 1
             return node.left
         return node
@@ -216,9 +216,9 @@ def test_how_an_operation_is_rounded() -> None:
     text, _ = kernel_source(set(Feature), {"along": each_kind}, rounded_operations=True)
     for line in (
         "sum_of_names = rounded(distance + origin)",
-        "negative = -distance / origin * about_one",
-        "coordinate = (origin[0] - distance) * about_one",
-        "literal = (-number_1_0 + distance) * about_one",
-        "nested = (distance + (origin - direction * distance * about_one) * about_one) * about_one",
+        "negative = -distance / origin * roundoff_factor",
+        "coordinate = (origin[0] - distance) * roundoff_factor",
+        "literal = (-number_1_0 + distance) * roundoff_factor",
+        "nested = (distance + (origin - direction * distance * roundoff_factor) * roundoff_factor) * roundoff_factor",
     ):
         assert line in text
