@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -95,20 +96,20 @@ def feasible_set(
         for pixel in pixels:
             colors.append(_colors(plain_light, pixel, may_merge=False) if with_colors else None)
             hits.append(_first_hits(plain, pixel))
+        # Made only where they are needed; often the error model is that of light, too.
+        linked = cache(lambda model: PixelEvaluator(LinkedRays(scene, model, overrides), bound, FLOAT32_BITS))
         if with_colors:
-            linked_light = PixelEvaluator(LinkedRays(scene, model_of_light, overrides), bound, FLOAT32_BITS)
             unclear = {place for place, color in enumerate(colors) if color is None}
             for place in unclear:
-                colors[place] = _colors(linked_light, pixels[place]) or _colors(plain_light, pixels[place])
+                pixel = pixels[place]
+                colors[place] = _colors(linked(model_of_light), pixel) or _colors(plain_light, pixel)
             widest_radius = WIDE * _brightest(colors)
             wide = {place for place, color in enumerate(colors) if color and widest(color.boxes) > widest_radius}
             for place in wide - unclear:
-                colors[place] = _colors(linked_light, pixels[place]) or colors[place]
-        unclear_hits = [place for place, hit in enumerate(hits) if hit is None]
-        if unclear_hits:
-            linked = PixelEvaluator(LinkedRays(scene, error_model, overrides), bound, FLOAT32_BITS)
-            for place in unclear_hits:
-                hits[place] = _first_hits(linked, pixels[place])
+                colors[place] = _colors(linked(model_of_light), pixels[place]) or colors[place]
+        for place, hit in enumerate(hits):
+            if hit is None:
+                hits[place] = _first_hits(linked(error_model), pixels[place])
         return _as_arrays(scene, error_model, colors, hits)
 
 

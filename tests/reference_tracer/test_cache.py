@@ -37,14 +37,19 @@ def test_a_file_gets_its_name_when_it_is_whole(tmp_path: Path) -> None:
     assert list(path.parent.iterdir()) == [path]
 
 
+def break_off(path: Path, error: type[BaseException]) -> None:
+    with written_whole(path) as file:
+        file.write(b"half")
+        raise error
+
+
 @pytest.mark.parametrize("error", [OSError, KeyboardInterrupt])
 def test_what_is_broken_off_leaves_the_earlier_file_and_nothing_else(
     tmp_path: Path, error: type[BaseException]
 ) -> None:
     path = tmp_path / "file"
     path.write_bytes(b"earlier")
-    with pytest.raises(error), written_whole(path) as file:  # noqa: PT012 - what is broken off is written first
-        file.write(b"half")
-        raise error
+    with pytest.raises(error):
+        break_off(path, error)
     assert path.read_bytes() == b"earlier"
     assert list(tmp_path.iterdir()) == [path]
