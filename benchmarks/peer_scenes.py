@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from scenes.scene import Scene
+from raytruth.scenes.scene import Scene
 
 MIRROR_DEPTH = 6
 

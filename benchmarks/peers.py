@@ -27,13 +27,13 @@ from rich.console import Console
 from rich.table import Table
 
 from benchmarks.peer_scenes import MIRROR_DEPTH, diffuse_scene, mirror_scene
-from comparisons.renderers.mitsuba import mitsuba_llvm
-from scenes.exporters.mitsuba import export_mitsuba
+from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_llvm
+from raytruth.scenes.exporters.mitsuba import export_mitsuba
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 THREADS = 2
 SIZE = 512

@@ -55,8 +55,8 @@ def use_threads(threads: int) -> None:
 
 def prepare_raytruth(_: str, scene_file: Path) -> Render:
     """The compiled tracer in float64, from the scene as it stands in a file of our own."""
-    from reference_tracer.rendering import prepare, render_prepared  # noqa: PLC0415 - counts as preparation
-    from scenes.scene import Scene  # noqa: PLC0415 - likewise
+    from raytruth.reference_tracer.rendering import prepare, render_prepared  # noqa: PLC0415 - counts as preparation
+    from raytruth.scenes.scene import Scene  # noqa: PLC0415 - likewise
 
     prepared = prepare(Scene.model_validate_json(scene_file.read_bytes()))
     return lambda: render_prepared(prepared)

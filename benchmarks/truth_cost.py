@@ -20,15 +20,15 @@ from rich.console import Console
 from rich.table import Table
 
 from benchmarks.peers import TABLE_WIDTH, machine, ranks_outside
-from reference_tracer.arithmetic import FLOAT
-from reference_tracer.certification import Certifier
-from reference_tracer.rendering import prepare
-from scenes.library import open_scene
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.certification import Certifier
+from raytruth.reference_tracer.rendering import prepare
+from raytruth.scenes.library import open_scene
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 # One sphere; a tree of mirrors and glass; a slab, whose trees are the largest; a mesh in a tree of boxes.
 SCENES = ("single-sphere", "whitted-1980", "glass-slab", "trefoil-knot")

@@ -10,9 +10,9 @@ from cyclopts import Parameter
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene, parse_pixel
 from raytruth.output import print_json
-from reference_tracer import explanation
-from reference_tracer.explanation import ExplanationError
-from reports.explanation_text import explanation_text
+from raytruth.reference_tracer import explanation
+from raytruth.reference_tracer.explanation import ExplanationError
+from raytruth.reports.explanation_text import explanation_text
 
 
 def explain(

@@ -14,16 +14,16 @@ from cyclopts import Parameter
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene
 from raytruth.output import print_json
-from scenes.exporters import gltf_limits, json_scene, mitsuba_limits, obj, pbrt_limits, povray_limits
-from scenes.exporters.gltf import export_gltf
-from scenes.exporters.mitsuba import export_mitsuba
-from scenes.exporters.pbrt import export_pbrt
-from scenes.exporters.povray import export_povray, options_of
+from raytruth.scenes.exporters import gltf_limits, json_scene, mitsuba_limits, obj, pbrt_limits, povray_limits
+from raytruth.scenes.exporters.gltf import export_gltf
+from raytruth.scenes.exporters.mitsuba import export_mitsuba
+from raytruth.scenes.exporters.pbrt import export_pbrt
+from raytruth.scenes.exporters.povray import export_povray, options_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 # The path integrator of Mitsuba counts edges: one to the first surface, one a bounce, one to the light.
 MITSUBA_EDGES = 2

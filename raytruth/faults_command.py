@@ -12,18 +12,18 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from comparisons.kill_run import kill_results, run_kills, write_kill_results
-from comparisons.quick_suite import write_quick_scenes
+from raytruth.comparisons.kills.kill_run import kill_results, run_kills, write_kill_results
+from raytruth.comparisons.matrix.quick_suite import write_quick_scenes
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene
-from reports.html import REPORT_FILE, write_html_report
-from reports.kills import print_kills, write_kill_report
-from scenes.library import library_names
+from raytruth.reports.html import REPORT_FILE, write_html_report
+from raytruth.reports.kills import print_kills, write_kill_report
+from raytruth.scenes.library import library_names
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from comparisons.kill_matrix import SceneKills
+    from raytruth.comparisons.kills.kill_matrix import SceneKills
 
 FAILED = 1
 

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from raytruth.errors import UsageError
-from scenes import library
-from scenes.camera import LARGEST_SIDE
-from scenes.loading import SceneError
+from raytruth.scenes import library
+from raytruth.scenes.camera import LARGEST_SIDE
+from raytruth.scenes.loading import SceneError
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 AsJson = Annotated[bool, Parameter(name="--json", negative="")]
 

@@ -12,13 +12,13 @@ import numpy as np
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from comparisons.images import ImageError, write_image
+from raytruth.comparisons.records.image_files import ImageError, write_image
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene, resized
 from raytruth.output import print_json, progress
-from reference_tracer import rendering
-from reference_tracer.arithmetic import FLOAT, FLOAT32, FLOAT64
-from reports.pictures import tone_picture
+from raytruth.reference_tracer import rendering
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64
+from raytruth.reports.pictures import tone_picture
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -8,15 +8,15 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.text import Text
 
-from comparisons.renderers.catalogue import UnknownRendererError, select_renderers
+from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time
 from raytruth.output import print_json, progress
-from scenes.library import library_names, open_scene
-from scenes.requirements import required_features
+from raytruth.scenes.library import library_names, open_scene
+from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
-    from comparisons.renderer import Renderer
+    from raytruth.comparisons.renderers.protocol import Renderer
 
 
 def renderers(*names: str, as_json: AsJson = False) -> None:

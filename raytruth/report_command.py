@@ -7,7 +7,7 @@ from pathlib import Path  # noqa: TC003 - cyclopts reads annotations at run time
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - as above
 from raytruth.output import print_json, progress
-from reports.html import ReportError, write_html_report
+from raytruth.reports.html import ReportError, write_html_report
 
 
 def report(directory: Path, /, *, as_json: AsJson = False) -> None:

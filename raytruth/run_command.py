@@ -12,26 +12,26 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from comparisons.matrix import Plan, plan_run, run_plan
-from comparisons.quick_suite import write_quick_suite
-from comparisons.renderers.catalogue import UnknownRendererError, select_renderers
-from comparisons.results import Verdict
-from comparisons.results_directory import only_run_in, with_metrics, write_results
-from comparisons.waivers import WaiverError, apply_waivers, load_waivers
+from raytruth.comparisons.matrix.matrix import Plan, plan_run, run_plan
+from raytruth.comparisons.matrix.quick_suite import write_quick_suite
+from raytruth.comparisons.matrix.results_directory import only_run_in, with_metrics, write_results
+from raytruth.comparisons.matrix.waivers import WaiverError, apply_waivers, load_waivers
+from raytruth.comparisons.records.results import Verdict
+from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene
 from raytruth.output import progress
-from reports.console import print_matrix
-from reports.html import write_html_report
-from scenes.library import library_names
+from raytruth.reports.console import print_matrix
+from raytruth.reports.html import write_html_report
+from raytruth.scenes.library import library_names
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from comparisons.renderer import Renderer
-    from comparisons.results import Cell, Results
-    from comparisons.waivers import Waiver
-    from scenes.scene import Scene
+    from raytruth.comparisons.matrix.waivers import Waiver
+    from raytruth.comparisons.records.results import Cell, Results
+    from raytruth.comparisons.renderers.protocol import Renderer
+    from raytruth.scenes.scene import Scene
 
 FAILED = 1
 

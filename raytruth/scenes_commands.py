@@ -11,13 +11,13 @@ from raytruth.errors import UsageError
 from raytruth.export_command import export
 from raytruth.options import AsJson, open_scene
 from raytruth.output import print_json, print_table
-from scenes.library import library_names
-from scenes.light_paths import whitted_class
-from scenes.requirements import required_features
-from scenes.schema import json_schema
+from raytruth.scenes.library import library_names
+from raytruth.scenes.light_paths import whitted_class
+from raytruth.scenes.requirements import required_features
+from raytruth.scenes.schema import json_schema
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 app = App(name="scenes")
 

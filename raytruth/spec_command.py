@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from comparisons.clauses import TESTS, SourceError
-from comparisons.exercised_scenes import scenes_by_fault, scenes_by_function
-from comparisons.traceability import TABLE, table_text, traceability
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time
 from raytruth.output import print_json, print_table, progress
+from raytruth.specification.clauses import TESTS, SourceError
+from raytruth.specification.exercised_scenes import scenes_by_fault, scenes_by_function
+from raytruth.specification.traceability import TABLE, table_text, traceability
 
 if TYPE_CHECKING:
-    from comparisons.traceability import Trace
+    from raytruth.specification.traceability import Trace
 
 UNCOVERED = 1
 ROOT = Path(__file__).parents[1]

@@ -17,17 +17,17 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from comparisons.certified_files import write_certified_image
-from comparisons.images import ImageError
+from raytruth.comparisons.records.certified_files import write_certified_image
+from raytruth.comparisons.records.image_files import ImageError
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene, resized
 from raytruth.output import print_json
-from reference_tracer.certified_image import certified_image, largest_value
-from scenes.library import library_names
+from raytruth.reference_tracer.certified_image import certified_image, largest_value
+from raytruth.scenes.library import library_names
 
 if TYPE_CHECKING:
-    from reference_tracer.certified_image import CertifiedImage
-    from scenes.scene import Scene
+    from raytruth.reference_tracer.certified_image import CertifiedImage
+    from raytruth.scenes.scene import Scene
 
 
 def truth(

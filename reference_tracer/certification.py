@@ -15,15 +15,15 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
 
-from reference_tracer.balls import TooManyOutcomesError, ball_arithmetic, every_outcome
-from reference_tracer.rendering import prepare
-from reference_tracer.ties import NotedDecisions, RaisingDecisions, UndecidedComparisonError, explanation
+from raytruth.reference_tracer.arithmetics.balls import TooManyOutcomesError, ball_arithmetic, every_outcome
+from raytruth.reference_tracer.rendering import prepare
+from raytruth.reference_tracer.ties import NotedDecisions, RaisingDecisions, UndecidedComparisonError, explanation
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from reference_tracer.balls import Decisions
-    from scenes.scene import Scene
+    from raytruth.reference_tracer.arithmetics.balls import Decisions
+    from raytruth.scenes.scene import Scene
 
 # 64 bits cost as much as 128: the work is Python's, not the numbers'.
 FEWEST_BITS = 128

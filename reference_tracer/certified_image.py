@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING, Any
 import flint
 import numpy as np
 
-from reference_tracer.cache import cache_folder, written_whole
-from reference_tracer.certification import TWO_ROUNDINGS, CertifiedPixel, Certifier, Enclosure, Undecided
-from reference_tracer.source_digest import source_digest
+from raytruth.reference_tracer.certification import TWO_ROUNDINGS, CertifiedPixel, Certifier, Enclosure, Undecided
+from raytruth.reference_tracer.storage.cache import cache_folder, written_whole
+from raytruth.reference_tracer.storage.source_digest import source_digest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 # A second or so of work, so that little is lost when a run is interrupted, and no process is left alone for long.
 PIXELS_IN_A_BAND = 2048

@@ -10,20 +10,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from reference_tracer.arithmetic import FLOAT
-from reference_tracer.explanation_record import DielectricTerm, Explanation, Hit, LightTerm, RayKind, TracedRay
-from reference_tracer.numbering import lights_as_traced, objects_of_primitives
-from reference_tracer.rendering import prepare
-from reference_tracer.scene_data import CAMERA_MEDIUM, MATERIAL_IS_LIT, integer_of
-from reference_tracer.traversal import NOTHING
-from scenes.lights import PointLight, PolynomialFalloff
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.explanation_record import DielectricTerm, Explanation, Hit, LightTerm, RayKind, TracedRay
+from raytruth.reference_tracer.numbering import lights_as_traced, objects_of_primitives
+from raytruth.reference_tracer.rendering import prepare
+from raytruth.reference_tracer.source.scene_data import CAMERA_MEDIUM, MATERIAL_IS_LIT, integer_of
+from raytruth.reference_tracer.source.traversal import NOTHING
+from raytruth.scenes.lights import PointLight, PolynomialFalloff
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference_tracer.explanation_record import Falloff
-    from scenes.lights import Light
-    from scenes.scene import Scene
+    from raytruth.reference_tracer.explanation_record import Falloff
+    from raytruth.scenes.lights import Light
+    from raytruth.scenes.scene import Scene
 
 # A full binary tree of depth 11. No person reads more, and a tree of depth 64 would fill any memory.
 MOST_RAYS = 4095

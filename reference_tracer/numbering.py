@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scenes.lights import PointLight
-from scenes.shapes import Mesh, Sphere
+from raytruth.scenes.lights import PointLight
+from raytruth.scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 
 def objects_of_primitives(scene: Scene) -> list[int]:

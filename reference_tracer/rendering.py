@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reference_tracer.arithmetic import FLOAT, FLOAT64, Arithmetic, Kernel, make_kernel
-from reference_tracer.tables import build_tables
-from scenes.requirements import required_features
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT64, Arithmetic, Kernel, make_kernel
+from raytruth.reference_tracer.tables import build_tables
+from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
-    from reference_tracer.scene_data import SceneData
-    from scenes.scene import Scene
+    from raytruth.reference_tracer.source.scene_data import SceneData
+    from raytruth.scenes.scene import Scene
 
     Overrides = Mapping[str, Callable[..., object]]
 

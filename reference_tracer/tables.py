@@ -9,22 +9,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference_tracer import scene_data as layout
-from reference_tracer.bounding_volume_tree import build_tree
-from scenes.camera import PerspectiveCamera
-from scenes.lights import ConstantBackground, DirectionalLight, PointLight, PolynomialFalloff
-from scenes.requirements import Feature
-from scenes.shapes import Mesh, Sphere
+from raytruth.reference_tracer.bounding_volume_tree import build_tree
+from raytruth.reference_tracer.source import scene_data as layout
+from raytruth.scenes.camera import PerspectiveCamera
+from raytruth.scenes.lights import ConstantBackground, DirectionalLight, PointLight, PolynomialFalloff
+from raytruth.scenes.requirements import Feature
+from raytruth.scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
-    from reference_tracer.arithmetic import Arithmetic
-    from scenes.lights import Falloff
-    from scenes.materials import Checkerboard, Texture
-    from scenes.scene import Scene
+    from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
+    from raytruth.scenes.lights import Falloff
+    from raytruth.scenes.materials import Checkerboard, Texture
+    from raytruth.scenes.scene import Scene
 
 BLACK = (0.0, 0.0, 0.0)
 FALLOFF_KINDS = {"none": 0, "inverse_square": 1}

@@ -5,8 +5,8 @@ from __future__ import annotations
 import inspect
 from typing import TYPE_CHECKING
 
-from reference_tracer.arithmetic import KERNEL_FILE
-from reference_tracer.balls import Decisions
+from raytruth.reference_tracer.arithmetics.arithmetic import KERNEL_FILE
+from raytruth.reference_tracer.arithmetics.balls import Decisions
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.results import Verdict
-from reports.loading import ReportError, read_colours, read_evidence
-from reports.wording import listed, number, plural
+from raytruth.comparisons.records.results import Verdict
+from raytruth.reports.loading import ReportError, read_colours, read_evidence
+from raytruth.reports.wording import listed, number, plural
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from comparisons.results import Cell, Results
+    from raytruth.comparisons.records.results import Cell, Results
 
 JUDGED = {Verdict.PASS, Verdict.FAIL}
 

@@ -8,9 +8,9 @@ from rich.cells import cell_len
 from rich.table import Table
 from rich.text import Text
 
-from comparisons.results import Verdict
-from reports.agreement import in_one_line
-from reports.wording import (
+from raytruth.comparisons.records.results import Verdict
+from raytruth.reports.agreement import in_one_line
+from raytruth.reports.wording import (
     WAIVED,
     WORDINGS,
     capped,
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from comparisons.results import Cell, Results
+    from raytruth.comparisons.records.results import Cell, Results
 
 STYLES: dict[str, str] = {
     Verdict.PASS: "green",

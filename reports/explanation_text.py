@@ -4,12 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from reports.wording import plural, printable
+from raytruth.reports.wording import plural, printable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from reference_tracer.explanation_record import DielectricTerm, Explanation, Hit, LightTerm, TracedRay, Vector
+    from raytruth.reference_tracer.explanation_record import (
+        DielectricTerm,
+        Explanation,
+        Hit,
+        LightTerm,
+        TracedRay,
+        Vector,
+    )
 
 INDENT = "    "
 COLOUR_UNITS = {"radiometric": "radiance in W/(m²·sr), linear RGB", "whitted": "linear RGB, without a unit"}

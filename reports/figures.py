@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reports import pictures
-from reports.loading import ReportError, read_colours, read_values
-from reports.wording import number, plural
+from raytruth.reports import pictures
+from raytruth.reports.loading import ReportError, read_colours, read_values
+from raytruth.reports.wording import number, plural
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from comparisons.renderer import Image
-    from comparisons.results import Cell, Images
+    from raytruth.comparisons.records.renderings import Image
+    from raytruth.comparisons.records.results import Cell, Images
 
 ENLARGE_BELOW = 320
 """Images narrower than this many pixels are shown enlarged, as squares: about the width of a figure on the page."""

@@ -16,16 +16,16 @@ from urllib.parse import quote
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from reports import pictures, wording
-from reports.agreement import Agreement, agreement_on, in_one_line
-from reports.figures import Album, Figure, SharedPicture, cell_figures, data_uri
-from reports.kills import PAGE_FILE
-from reports.loading import ReportError, load_results, read_log
-from reports.made_from import is_made_from, made_from
-from reports.pixel_scripts import FOLDER, PixelView, write_pixel_script
+from raytruth.reports import pictures, wording
+from raytruth.reports.agreement import Agreement, agreement_on, in_one_line
+from raytruth.reports.figures import Album, Figure, SharedPicture, cell_figures, data_uri
+from raytruth.reports.kills import PAGE_FILE
+from raytruth.reports.loading import ReportError, load_results, read_log
+from raytruth.reports.made_from import is_made_from, made_from
+from raytruth.reports.pixel_scripts import FOLDER, PixelView, write_pixel_script
 
 if TYPE_CHECKING:
-    from comparisons.results import Cell, Results, SceneRecord
+    from raytruth.comparisons.records.results import Cell, Results, SceneRecord
 
 __all__ = ["REPORT_FILE", "ReportError", "write_html_report"]
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from rich.text import Text
 
-from comparisons.kill_results import read_kill_results
-from reports import wording
+from raytruth.comparisons.records.kill_results import read_kill_results
+from raytruth.reports import wording
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from comparisons.kill_results import FaultResult, KillResults, SubjectResult
+    from raytruth.comparisons.records.kill_results import FaultResult, KillResults, SubjectResult
 
 PAGE_FILE = "faults.html"
 SHADES = 5

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 from rich.text import Text
 
-from comparisons.images import ImageError, read_image
-from comparisons.pixel_evidence import read_pixel_evidence
-from comparisons.results import RESULTS_FILE, SCHEMA_VERSION, Results
+from raytruth.comparisons.records.image_files import ImageError, read_image
+from raytruth.comparisons.records.pixel_evidence import read_pixel_evidence
+from raytruth.comparisons.records.results import RESULTS_FILE, SCHEMA_VERSION, Results
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from comparisons.pixel_evidence import PixelEvidence
-    from comparisons.renderer import Image
+    from raytruth.comparisons.records.pixel_evidence import PixelEvidence
+    from raytruth.comparisons.records.renderings import Image
 
 LOG_LINES = 40
 """Enough for a renderer's last words; the whole log lies in the results directory."""

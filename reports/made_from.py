@@ -5,8 +5,8 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-from comparisons.results import RESULTS_FILE
-from reports.kills import PAGE_FILE
+from raytruth.comparisons.records.results import RESULTS_FILE
+from raytruth.reports.kills import PAGE_FILE
 
 OURS = Path(__file__).parent
 # The digest stands in the head of the page.

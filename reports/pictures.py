@@ -11,7 +11,7 @@ import OpenImageIO
 import PIL.Image
 from numpy.typing import NDArray
 
-from comparisons.srgb import srgb_encoded
+from raytruth.comparisons.records.srgb import srgb_encoded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -16,14 +16,14 @@ from urllib.parse import quote
 
 import numpy as np
 
-from reports.loading import ReportError, read_colours, read_evidence
+from raytruth.reports.loading import ReportError, read_colours, read_evidence
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import ArrayLike
 
-    from comparisons.results import Cell, Images
+    from raytruth.comparisons.records.results import Cell, Images
 
 FOLDER = "pixels"
 """Beside the page."""

@@ -7,12 +7,12 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from comparisons.results import Verdict
+from raytruth.comparisons.records.results import Verdict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from comparisons.results import Cell, Results
+    from raytruth.comparisons.records.results import Cell, Results
 
 
 @dataclass(frozen=True)

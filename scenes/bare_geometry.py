@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scenes.lights import ConstantBackground
-from scenes.materials import Diffuse, Material
+from raytruth.scenes.lights import ConstantBackground
+from raytruth.scenes.materials import Diffuse, Material
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 # Of a single grey material, which every renderer has.
 GREY = Material(diffuse=Diffuse(reflectance=(0.5, 0.5, 0.5)))

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scenes.values import Direction, Part, Positive, Vector
+from raytruth.scenes.values import Direction, Part, Positive, Vector
 
 # A side longer than this is a typing error rather than a picture: 8192² pixels of float32 RGB are already 800 MB.
 LARGEST_SIDE = 8192

@@ -7,19 +7,19 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from scenes.lights import PointLight
-from scenes.shapes import Mesh, Triangle
-from scenes.wording import place, quoted, suggestion
+from raytruth.scenes.lights import PointLight
+from raytruth.scenes.shapes import Mesh, Triangle
+from raytruth.scenes.wording import place, quoted, suggestion
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from scenes.camera import CameraBase
-    from scenes.lights import Light
-    from scenes.materials import Material
-    from scenes.scene import Scene
-    from scenes.shapes import Shape
-    from scenes.values import Color, Vector
+    from raytruth.scenes.camera import CameraBase
+    from raytruth.scenes.lights import Light
+    from raytruth.scenes.materials import Material
+    from raytruth.scenes.scene import Scene
+    from raytruth.scenes.shapes import Shape
+    from raytruth.scenes.values import Color, Vector
 
 # A picture and its first hits take 76 bytes a pixel (3 float32, 8 float64), so this is 1.3 GB: 4096 x 4096 pixels.
 LARGEST_PIXEL_COUNT = 2**24

@@ -16,14 +16,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scenes.exporters.triangle_soup import material_of_each_triangle, triangles_of_scene
-from scenes.lights import PointLight
+from raytruth.scenes.exporters.triangle_soup import material_of_each_triangle, triangles_of_scene
+from raytruth.scenes.lights import PointLight
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from scenes.lights import Light
-    from scenes.scene import Scene
+    from raytruth.scenes.lights import Light
+    from raytruth.scenes.scene import Scene
 
     Point = tuple[int, int, int]
     Triangle = tuple[Point, Point, Point]

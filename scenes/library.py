@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from scenes.loading import SceneError, load_scene
-from scenes.wording import quoted, suggestion
+from raytruth.scenes.loading import SceneError, load_scene
+from raytruth.scenes.wording import quoted, suggestion
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 # Beside this file, so that neither the working directory nor a folder called `scenes` in it matters.
 LIBRARY_FOLDER = Path(__file__).parent / "library"

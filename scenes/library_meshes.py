@@ -1,4 +1,4 @@
-"""Makes the mesh files of the scene library: `python -m scenes.library_meshes` writes them anew."""
+"""Makes the mesh files of the scene library: `python -m raytruth.scenes.library_meshes` writes them anew."""
 
 from __future__ import annotations
 

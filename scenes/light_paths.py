@@ -16,17 +16,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 import regex
 
-from scenes.lights import shines
-from scenes.shapes import Mesh, Sphere, Triangle
+from raytruth.scenes.lights import shines
+from raytruth.scenes.shapes import Mesh, Sphere, Triangle
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
-    from scenes.materials import Material
-    from scenes.scene import Scene
-    from scenes.shapes import Shape
+    from raytruth.scenes.materials import Material
+    from raytruth.scenes.scene import Scene
+    from raytruth.scenes.shapes import Shape
 
     Points = NDArray[np.float64]
     """Shape (n, 3)."""

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from scenes.values import Color, Direction, NonNegative, Part, Vector
+from raytruth.scenes.values import Color, Direction, NonNegative, Part, Vector
 
 
 class PolynomialFalloff(Part):

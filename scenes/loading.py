@@ -10,22 +10,22 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from scenes.camera import Camera, CameraBase
-from scenes.consistency import Parts, inconsistencies, parts_of
-from scenes.lights import Light
-from scenes.materials import Material
-from scenes.mesh_files import with_triangles
-from scenes.scene import Scene
-from scenes.shapes import Mesh, Shape
-from scenes.triangle_lists import LARGEST_FACE_COUNT, MeshFileError
-from scenes.validation import problems_of
-from scenes.values import Color
-from scenes.wording import place, quoted
+from raytruth.scenes.camera import Camera, CameraBase
+from raytruth.scenes.consistency import Parts, inconsistencies, parts_of
+from raytruth.scenes.lights import Light
+from raytruth.scenes.materials import Material
+from raytruth.scenes.mesh_files import with_triangles
+from raytruth.scenes.scene import Scene
+from raytruth.scenes.shapes import Mesh, Shape
+from raytruth.scenes.triangle_lists import LARGEST_FACE_COUNT, MeshFileError
+from raytruth.scenes.validation import problems_of
+from raytruth.scenes.values import Color
+from raytruth.scenes.wording import place, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-    from scenes.consistency import Problem
+    from raytruth.scenes.consistency import Problem
 
 # An inline mesh of 10,000 faces fits. Every broken item costs pydantic some 2 kB: measured, the worst text of this size
 # (all empty objects) is refused within 12 s and 0.9 GB, and eight times as much text takes eight times as much.

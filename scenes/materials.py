@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from scenes.values import SMALLEST_INDEX, Color, Coordinate, Part, Positive
+from raytruth.scenes.values import SMALLEST_INDEX, Color, Coordinate, Part, Positive
 
 Index = Annotated[float, Field(allow_inf_nan=False, strict=True, ge=SMALLEST_INDEX, le=1 / SMALLEST_INDEX)]
 

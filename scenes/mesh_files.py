@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scenes.obj_file import read_obj
-from scenes.ply_file import read_ply
-from scenes.triangle_lists import MeshFileError, TriangleLists
-from scenes.wording import quoted
+from raytruth.scenes.obj_file import read_obj
+from raytruth.scenes.ply_file import read_ply
+from raytruth.scenes.triangle_lists import MeshFileError, TriangleLists
+from raytruth.scenes.wording import quoted
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from scenes.shapes import Mesh
+    from raytruth.scenes.shapes import Mesh
 
 # Enough for the largest number of faces (triangle_lists.py) in OBJ, whose lines take about 80 bytes a face in all.
 LARGEST_MESH_FILE = 64 * 2**20

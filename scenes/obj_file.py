@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from scenes.triangle_lists import MeshFileError, TriangleLists, check_coordinate, check_face_count, fan
-from scenes.wording import quoted
+from raytruth.scenes.triangle_lists import MeshFileError, TriangleLists, check_coordinate, check_face_count, fan
+from raytruth.scenes.wording import quoted
 
 # Normals, texture coordinates, smoothing, names and materials change nothing: a scene states its own material.
 _IGNORED = {"vn", "vt", "s", "g", "o", "usemtl", "mtllib"}

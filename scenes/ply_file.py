@@ -10,7 +10,7 @@ import struct
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from scenes.triangle_lists import (
+from raytruth.scenes.triangle_lists import (
     LARGEST_FACE_COUNT,
     MeshFileError,
     TriangleLists,
@@ -18,7 +18,7 @@ from scenes.triangle_lists import (
     check_face_count,
     fan,
 )
-from scenes.wording import quoted
+from raytruth.scenes.wording import quoted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

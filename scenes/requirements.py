@@ -5,13 +5,13 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from scenes.lights import GradientBackground, PolynomialFalloff
+from raytruth.scenes.lights import GradientBackground, PolynomialFalloff
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from scenes.materials import Material
-    from scenes.scene import Scene
+    from raytruth.scenes.materials import Material
+    from raytruth.scenes.scene import Scene
 
 # A tree of boxes pays from about this many triangles on: below, the linear scan is as fast, and simpler to certify.
 TRIANGLES_WITHOUT_TREE = 16

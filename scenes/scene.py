@@ -6,11 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scenes.camera import Camera
-from scenes.lights import Background, ConstantBackground, Light
-from scenes.materials import Material
-from scenes.shapes import Shape
-from scenes.values import Color, Part
+from raytruth.scenes.camera import Camera
+from raytruth.scenes.lights import Background, ConstantBackground, Light
+from raytruth.scenes.materials import Material
+from raytruth.scenes.shapes import Shape
+from raytruth.scenes.values import Color, Part
 
 # A full binary ray tree of this depth has 2^65 rays; corridors of mirrors, which do not branch, stay affordable.
 LARGEST_DEPTH = 64

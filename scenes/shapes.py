@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scenes.values import Part, Positive, Vector
+from raytruth.scenes.values import Part, Positive, Vector
 
 VertexIndex = Annotated[int, Field(strict=True, ge=0)]
 

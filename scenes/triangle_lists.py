@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scenes.values import LARGEST_COORDINATE
+from raytruth.scenes.values import LARGEST_COORDINATE
 
 Vertices = tuple[tuple[float, float, float], ...]
 Faces = tuple[tuple[int, int, int], ...]

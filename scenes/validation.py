@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
 
-from scenes.scene import Scene
-from scenes.wording import described, place, quoted, suggestion
+from raytruth.scenes.scene import Scene
+from raytruth.scenes.wording import described, place, quoted, suggestion
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, Phase, settings
 
-from comparisons.clauses import PROMISES, SPECIFICATION, all_clauses
+from raytruth.specification.clauses import PROMISES, SPECIFICATION, all_clauses
 
 # The same examples on every machine and in every run, so that a change that passes here passes everywhere; a deadline
 # would fail a test because the machine is busy.

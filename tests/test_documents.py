@@ -14,9 +14,9 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from comparisons.clauses import PROMISES, SPECIFICATION, all_clauses, clauses_of
-from scenes.loading import load_scene
-from scenes.schema import json_schema
+from raytruth.scenes.loading import load_scene
+from raytruth.scenes.schema import json_schema
+from raytruth.specification.clauses import PROMISES, SPECIFICATION, all_clauses, clauses_of
 
 pytestmark = pytest.mark.clause("PRJ-2")
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from scenes.library import LIBRARY_FOLDER, library_names
+from raytruth.scenes.library import LIBRARY_FOLDER, library_names
 
 pytestmark = pytest.mark.clause("PRJ-3")
 
@@ -80,7 +80,7 @@ def test_the_wheel_holds_the_packages_with_their_data_and_nothing_else(wheel: Pa
 
 
 def test_the_installed_code_is_the_wheels_own(raytruth: Path, elsewhere: Path) -> None:
-    code = "import scenes, reports; print(scenes.__file__, reports.__file__, sep='\\n')"
+    code = "import scenes, reports; print(raytruth.scenes.__file__, reports.__file__, sep='\\n')"
     for file in run([str(raytruth.with_name("python")), "-P", "-c", code], elsewhere).splitlines():
         assert Path(file).is_relative_to(raytruth.parent.parent)
 

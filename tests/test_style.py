@@ -18,13 +18,13 @@ ROOT = Path(__file__).parent.parent
 # What each folder may import of ours (README.md, "Folders"). A report reads records and images that others wrote, and
 # encodes colours as they do.
 RECORDS = {
-    "comparisons.results",
-    "comparisons.kill_results",
-    "comparisons.images",
-    "comparisons.pixel_evidence",
-    "comparisons.renderer.Image",
-    "comparisons.srgb",
-    "reference_tracer.explanation_record",
+    "raytruth.comparisons.records.results",
+    "raytruth.comparisons.records.kill_results",
+    "raytruth.comparisons.records.image_files",
+    "raytruth.comparisons.records.pixel_evidence",
+    "raytruth.comparisons.records.renderings.Image",
+    "raytruth.comparisons.records.srgb",
+    "raytruth.reference_tracer.explanation_record",
 }
 MAY_IMPORT = {
     "scenes": {"scenes"},
@@ -68,7 +68,7 @@ def imported_modules(path: Path) -> set[str]:
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path}: relative imports hide the direction"
             assert node.module is not None
-            # `from comparisons import results` imports a module, `from comparisons.results import Cell` a name.
+            # `from comparisons import results` imports a module, `from comparisons.records.results import Cell` a name.
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
     return names
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from comparisons.kill_results import KillResults, read_kill_results
-from reports.kills import gate_counts, margin, quick_seconds, summary
+from raytruth.comparisons.records.kill_results import KillResults, read_kill_results
+from raytruth.reports.kills import gate_counts, margin, quick_seconds, summary
 
 PAGE = Path(__file__).parent.parent / "docs" / "kill-matrix.md"
 BEGIN, END = "<!-- kills: begin -->\n", "<!-- kills: end -->"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from comparisons.results import RESULTS_FILE, Results, Verdict
+from raytruth.comparisons.records.results import RESULTS_FILE, Results, Verdict
 
 README = Path(__file__).parent.parent / "README.md"
 BEGIN, END = "matrix: begin -->\n", "<!-- matrix: end -->"

@@ -5,12 +5,12 @@ from __future__ import annotations
 from math import exp
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.scene_data import MATERIAL_OUTSIDE, integer_of
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.scene_data import MATERIAL_OUTSIDE, integer_of
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("REFR-7", "medium_transmittance", "What makes thick green glass greener than thin?")

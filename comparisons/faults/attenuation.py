@@ -5,14 +5,14 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.features import INVERSE_SQUARE_FALLOFF, POLYNOMIAL_FALLOFF
-from reference_tracer.illumination import INVERSE_SQUARE, POLYNOMIAL
-from reference_tracer.scene_data import LIGHT_FALLOFF, LIGHT_FALLOFF_COEFFICIENTS, integer_of, vector_of
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.features import INVERSE_SQUARE_FALLOFF, POLYNOMIAL_FALLOFF
+from raytruth.reference_tracer.source.illumination import INVERSE_SQUARE, POLYNOMIAL
+from raytruth.reference_tracer.source.scene_data import LIGHT_FALLOFF, LIGHT_FALLOFF_COEFFICIENTS, integer_of, vector_of
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Scalar
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("ILL-7", "attenuation", "How much light arrives at twice the distance?")

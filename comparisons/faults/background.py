@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.background import background_radiance
-from reference_tracer.features import ABSORPTION, BACKGROUND, BACKGROUND_GRADIENT
-from reference_tracer.ray_tree import trace_ray
-from reference_tracer.refraction import medium_transmittance
-from reference_tracer.scene_data import BACKGROUND_COLOR, MATERIAL_ABSORPTION, vector_of
-from reference_tracer.traversal import NOTHING, nearest_hit
-from reference_tracer.vector import add, multiply, scale
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.background import background_radiance
+from raytruth.reference_tracer.source.features import ABSORPTION, BACKGROUND, BACKGROUND_GRADIENT
+from raytruth.reference_tracer.source.ray_tree import trace_ray
+from raytruth.reference_tracer.source.refraction import medium_transmittance
+from raytruth.reference_tracer.source.scene_data import BACKGROUND_COLOR, MATERIAL_ABSORPTION, vector_of
+from raytruth.reference_tracer.source.traversal import NOTHING, nearest_hit
+from raytruth.reference_tracer.source.vector import add, multiply, scale
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("BG-1", "background_radiance", "Which colour has the sky overhead?")

@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import inf, pi, tan
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.camera import primary_ray
-from reference_tracer.features import PERSPECTIVE, SPHERES, TRIANGLES
-from reference_tracer.ray_tree import radiance
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.camera import primary_ray
+from raytruth.reference_tracer.source.features import PERSPECTIVE, SPHERES, TRIANGLES
+from raytruth.reference_tracer.source.ray_tree import radiance
+from raytruth.reference_tracer.source.scene_data import (
     CAMERA_EXTENT,
     CAMERA_LOOK_AT,
     CAMERA_POSITION,
@@ -23,13 +23,13 @@ from reference_tracer.scene_data import (
     rows_of,
     vector_of,
 )
-from reference_tracer.traversal import NOTHING, distance_to_sphere, nearest_triangle
-from reference_tracer.vector import add, along, cross, dot, negate, normalize, scale, subtract
+from raytruth.reference_tracer.source.traversal import NOTHING, distance_to_sphere, nearest_triangle
+from raytruth.reference_tracer.source.vector import add, along, cross, dot, negate, normalize, scale, subtract
 
 if TYPE_CHECKING:
-    from reference_tracer.camera import Frame
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.camera import Frame
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("CAM-1", "primary_ray", "Which way does the cross product of forward and up point?")

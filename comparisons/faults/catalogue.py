@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from comparisons.faults import (
+from raytruth.comparisons.faults import (
     absorption,
     attenuation,
     background,
@@ -28,10 +28,10 @@ from comparisons.faults import (
     traversal,
     triangle,
 )
-from comparisons.faults.fault import subjects_in
+from raytruth.comparisons.faults.fault import subjects_in
 
 if TYPE_CHECKING:
-    from comparisons.faults.fault import Fault
+    from raytruth.comparisons.faults.fault import Fault
 
 TOPICS = (
     camera,

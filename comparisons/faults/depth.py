@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.background import background_radiance
-from reference_tracer.camera import primary_ray
-from reference_tracer.features import BLINN, CONSTANT_SPLIT, DIFFUSE, MIRRORS, PHONG, RADIOMETRIC
-from reference_tracer.illumination import diffuse, specular
-from reference_tracer.ray_tree import radiance, trace_ray
-from reference_tracer.reflection import mirror_direction
-from reference_tracer.refraction import fresnel_reflectance
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.background import background_radiance
+from raytruth.reference_tracer.source.camera import primary_ray
+from raytruth.reference_tracer.source.features import BLINN, CONSTANT_SPLIT, DIFFUSE, MIRRORS, PHONG, RADIOMETRIC
+from raytruth.reference_tracer.source.illumination import diffuse, specular
+from raytruth.reference_tracer.source.ray_tree import radiance, trace_ray
+from raytruth.reference_tracer.source.reflection import mirror_direction
+from raytruth.reference_tracer.source.refraction import fresnel_reflectance
+from raytruth.reference_tracer.source.scene_data import (
     CAMERA_MEDIUM,
     MATERIAL_HAS_CONSTANT_SPLIT,
     MATERIAL_IS_LIT,
@@ -24,15 +24,15 @@ from reference_tracer.scene_data import (
     integer_of,
     vector_of,
 )
-from reference_tracer.shadow import departure, is_shadowed
-from reference_tracer.traversal import NOTHING
-from reference_tracer.vector import add, dot, multiply, negate, normalize, scale
+from raytruth.reference_tracer.source.shadow import departure, is_shadowed
+from raytruth.reference_tracer.source.traversal import NOTHING
+from raytruth.reference_tracer.source.vector import add, dot, multiply, negate, normalize, scale
 
 if TYPE_CHECKING:
-    from reference_tracer.camera import Frame
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.ray_tree import Ray
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.camera import Frame
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.ray_tree import Ray
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("TREE-1", "direct_light", "Which terms does the equation have for a surface that mirrors?")

@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.features import INVERSE_SQUARE_FALLOFF, POLYNOMIAL_FALLOFF, SPHERES, TRIANGLES
-from reference_tracer.illumination import INVERSE_SQUARE, POLYNOMIAL
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.features import INVERSE_SQUARE_FALLOFF, POLYNOMIAL_FALLOFF, SPHERES, TRIANGLES
+from raytruth.reference_tracer.source.illumination import INVERSE_SQUARE, POLYNOMIAL
+from raytruth.reference_tracer.source.scene_data import (
     LIGHT_FALLOFF,
     LIGHT_FALLOFF_COEFFICIENTS,
     TRIANGLE_A,
@@ -17,13 +17,13 @@ from reference_tracer.scene_data import (
     integer_of,
     vector_of,
 )
-from reference_tracer.traversal import NOTHING, is_occluded, nearest_sphere, nearest_triangle
-from reference_tracer.triangle import triangle_distance
-from reference_tracer.vector import along, cross, dot, scale, subtract
+from raytruth.reference_tracer.source.traversal import NOTHING, is_occluded, nearest_sphere, nearest_triangle
+from raytruth.reference_tracer.source.triangle import triangle_distance
+from raytruth.reference_tracer.source.vector import along, cross, dot, scale, subtract
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("TRAV-3", "nearest_hit", "When are two distances the same?")

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.error_model import ErrorModel
+from raytruth.comparisons.error_models.error_model import ErrorModel
 
 if TYPE_CHECKING:
     from types import ModuleType
 
-    from comparisons.output_model import OutputModel
+    from raytruth.comparisons.error_models.output_model import OutputModel
 
 Array = NDArray[np.float64]
 Function = Callable[..., Any]

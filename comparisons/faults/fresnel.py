@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.features import CONSTANT_SPLIT, RADIOMETRIC
-from reference_tracer.refraction import fresnel_reflectance
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.features import CONSTANT_SPLIT, RADIOMETRIC
+from raytruth.reference_tracer.source.refraction import fresnel_reflectance
+from raytruth.reference_tracer.source.scene_data import (
     MATERIAL_HAS_CONSTANT_SPLIT,
     MATERIAL_REFLECTANCE,
     MATERIAL_TRANSMITTANCE,
@@ -17,8 +17,8 @@ from reference_tracer.scene_data import (
 )
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("REFR-4", "fresnel_reflectance", "Is an approximation of Fresnel's equations good enough here?")

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.features import BLINN, DIFFUSE, PHONG
-from reference_tracer.illumination import diffuse, specular
-from reference_tracer.reflection import mirror_direction
-from reference_tracer.scene_data import MATERIAL_IS_LIT, MATERIAL_SPECULAR, integer_of, vector_of
-from reference_tracer.shadow import is_shadowed
-from reference_tracer.vector import add, dot, multiply, normalize, scale, subtract
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.features import BLINN, DIFFUSE, PHONG
+from raytruth.reference_tracer.source.illumination import diffuse, specular
+from raytruth.reference_tracer.source.reflection import mirror_direction
+from raytruth.reference_tracer.source.scene_data import MATERIAL_IS_LIT, MATERIAL_SPECULAR, integer_of, vector_of
+from raytruth.reference_tracer.source.shadow import is_shadowed
+from raytruth.reference_tracer.source.vector import add, dot, multiply, normalize, scale, subtract
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("ILL-2", "direct_light", "Can a light behind the surface make a highlight on its front?")

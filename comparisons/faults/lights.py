@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.features import AMBIENT, DIRECTIONAL_LIGHTS, EMISSION, POINT_LIGHTS
-from reference_tracer.illumination import ambient, attenuation, direct_light, emission
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.features import AMBIENT, DIRECTIONAL_LIGHTS, EMISSION, POINT_LIGHTS
+from raytruth.reference_tracer.source.illumination import ambient, attenuation, direct_light, emission
+from raytruth.reference_tracer.source.scene_data import (
     LIGHT_INTENSITY,
     LIGHT_POSITION,
     SUN_DIRECTION,
@@ -15,11 +15,11 @@ from reference_tracer.scene_data import (
     rows_of,
     vector_of,
 )
-from reference_tracer.vector import add, dot, negate, scale, subtract
+from raytruth.reference_tracer.source.vector import add, dot, negate, scale, subtract
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("ILL-2", "local_illumination", "Take all lights but one away: which one still counts?")

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.reflection import mirror_direction
-from reference_tracer.shadow import departure
-from reference_tracer.vector import along, dot, negate, normalize, scale, subtract
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.reflection import mirror_direction
+from raytruth.reference_tracer.source.shadow import departure
+from raytruth.reference_tracer.source.vector import along, dot, negate, normalize, scale, subtract
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Vector
-    from reference_tracer.ray_tree import Ray
+    from raytruth.reference_tracer.source.numbers import Vector
+    from raytruth.reference_tracer.source.ray_tree import Ray
 
 
 @fault("REFL-1", "mirror_direction", "Draw d, n and r: how often does the part along n have to be taken away?")

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.traversal import surface_normal
-from reference_tracer.vector import along, dot, negate
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.traversal import surface_normal
+from raytruth.reference_tracer.source.vector import along, dot, negate
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("ILL-1", "surface_at", "What does the inside of an open surface look like?")

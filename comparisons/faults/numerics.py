@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.faults.fault import Array, fault, output_fault
-from reference_tracer.vector import along, dot, scale
+from raytruth.comparisons.faults.fault import Array, fault, output_fault
+from raytruth.reference_tracer.source.vector import along, dot, scale
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
 
 
 @fault("NUM-3", "normalize", "How many digits has a float of your language?", numbers="float32")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import inf, pi, sqrt, tan
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import Function, Subject
-from reference_tracer.features import BACKGROUND, BACKGROUND_GRADIENT, PERSPECTIVE
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import Function, Subject
+from raytruth.reference_tracer.source.features import BACKGROUND, BACKGROUND_GRADIENT, PERSPECTIVE
+from raytruth.reference_tracer.source.scene_data import (
     BACKGROUND_COLOR,
     CAMERA_EXTENT,
     CAMERA_LOOK_AT,
@@ -23,14 +23,14 @@ from reference_tracer.scene_data import (
     number_of,
     vector_of,
 )
-from reference_tracer.vector import add, along, cross, dot, negate, normalize, scale, subtract
+from raytruth.reference_tracer.source.vector import add, along, cross, dot, negate, normalize, scale, subtract
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from reference_tracer.camera import Frame
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.camera import Frame
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 def variant(function: str) -> Callable[[Function], Subject]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from comparisons.faults.other_formulas import variant
-from reference_tracer.bounding_volume import box_is_missed
-from reference_tracer.features import BOUNDING_VOLUMES
-from reference_tracer.ray_tree import trace_ray
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.other_formulas import variant
+from raytruth.reference_tracer.source.bounding_volume import box_is_missed
+from raytruth.reference_tracer.source.features import BOUNDING_VOLUMES
+from raytruth.reference_tracer.source.ray_tree import trace_ray
+from raytruth.reference_tracer.source.scene_data import (
     NODE_END,
     NODE_FIRST_TRIANGLE,
     NODE_HIGH,
@@ -24,11 +24,11 @@ from reference_tracer.scene_data import (
     rows_of,
     vector_of,
 )
-from reference_tracer.traversal import NOTHING, distance_to_sphere, distance_to_triangle
-from reference_tracer.vector import add
+from raytruth.reference_tracer.source.traversal import NOTHING, distance_to_sphere, distance_to_triangle
+from raytruth.reference_tracer.source.vector import add
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
 
 
 @variant("nearest_sphere")

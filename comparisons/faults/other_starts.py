@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING
 
-from reference_tracer.scene_data import (
+from raytruth.reference_tracer.source.scene_data import (
     SPHERE_CENTER,
     SPHERE_RADIUS,
     TRIANGLE_A,
@@ -14,14 +14,14 @@ from reference_tracer.scene_data import (
     number_of,
     vector_of,
 )
-from reference_tracer.sphere import sphere_distance
-from reference_tracer.traversal import NOTHING
-from reference_tracer.triangle import triangle_distance
-from reference_tracer.vector import along, dot
+from raytruth.reference_tracer.source.sphere import sphere_distance
+from raytruth.reference_tracer.source.traversal import NOTHING
+from raytruth.reference_tracer.source.triangle import triangle_distance
+from raytruth.reference_tracer.source.vector import along, dot
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 # Far above the rounding of float64 in scenes of some units, and far below what can be seen. The functions repeat it,
 # since they become source of the tracer.

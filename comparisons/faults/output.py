@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from comparisons.faults.fault import Array, output_fault
-from comparisons.output_model import OutputModel
-from comparisons.srgb import srgb_decoded, srgb_encoded
+from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.faults.fault import Array, output_fault
+from raytruth.comparisons.records.srgb import srgb_decoded, srgb_encoded
 
 BYTES = OutputModel("uint8", "sRGB", clipped=True)
 

@@ -5,24 +5,24 @@ from __future__ import annotations
 from math import tan
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.camera import camera_frame, primary_ray
-from reference_tracer.features import PERSPECTIVE
-from reference_tracer.image import radiance_at
-from reference_tracer.ray_tree import radiance
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.camera import camera_frame, primary_ray
+from raytruth.reference_tracer.source.features import PERSPECTIVE
+from raytruth.reference_tracer.source.pixel_rows import radiance_at
+from raytruth.reference_tracer.source.ray_tree import radiance
+from raytruth.reference_tracer.source.scene_data import (
     CAMERA_MEDIUM,
     CAMERA_SIZE,
     MAX_DEPTH,
     integer_of,
 )
-from reference_tracer.traversal import NOTHING, nearest_hit
-from reference_tracer.vector import add, along, dot, normalize, scale
+from raytruth.reference_tracer.source.traversal import NOTHING, nearest_hit
+from raytruth.reference_tracer.source.vector import add, along, dot, normalize, scale
 
 if TYPE_CHECKING:
-    from reference_tracer.camera import Frame
-    from reference_tracer.numbers import Scalar, Table, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.camera import Frame
+    from raytruth.reference_tracer.source.numbers import Scalar, Table, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("IMG-1", "primary_ray", "Which point of pixel (0, 0) has the image coordinates (0, 0)?")

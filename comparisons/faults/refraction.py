@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.scene_data import MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX, number_of
-from reference_tracer.shadow import departure
-from reference_tracer.vector import along, negate, normalize, scale
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.scene_data import MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX, number_of
+from raytruth.reference_tracer.source.shadow import departure
+from raytruth.reference_tracer.source.vector import along, negate, normalize, scale
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.ray_tree import Ray
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.ray_tree import Ray
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("REFR-1", "index_ratio", "Does light bend toward the normal when it enters glass, or away from it?")

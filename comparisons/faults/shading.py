@@ -5,10 +5,17 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.features import BLINN, DIFFUSE, DIRECTIONAL_LIGHTS, PHONG, POINT_LIGHTS, RADIOMETRIC
-from reference_tracer.illumination import diffuse, specular
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.features import (
+    BLINN,
+    DIFFUSE,
+    DIRECTIONAL_LIGHTS,
+    PHONG,
+    POINT_LIGHTS,
+    RADIOMETRIC,
+)
+from raytruth.reference_tracer.source.illumination import diffuse, specular
+from raytruth.reference_tracer.source.scene_data import (
     AMBIENT_LIGHT,
     LIGHT_POSITION,
     MATERIAL_AMBIENT,
@@ -21,13 +28,13 @@ from reference_tracer.scene_data import (
     rows_of,
     vector_of,
 )
-from reference_tracer.shadow import is_shadowed
-from reference_tracer.texture import textured
-from reference_tracer.vector import add, dot, multiply, normalize, scale
+from raytruth.reference_tracer.source.shadow import is_shadowed
+from raytruth.reference_tracer.source.texture import textured
+from raytruth.reference_tracer.source.vector import add, dot, multiply, normalize, scale
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("ILL-2", "direct_light", "Which sign has n·l where the light is behind the surface?")

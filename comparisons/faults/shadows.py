@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.features import DIELECTRICS, EMISSION, SPHERES, TRIANGLES
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.features import DIELECTRICS, EMISSION, SPHERES, TRIANGLES
+from raytruth.reference_tracer.source.scene_data import (
     MATERIAL_EMISSION,
     MATERIAL_EMISSION_BOARD,
     MATERIAL_IS_DIELECTRIC,
@@ -19,18 +19,18 @@ from reference_tracer.scene_data import (
     rows_of,
     vector_of,
 )
-from reference_tracer.shadow import departure, shadow_ray_end
-from reference_tracer.traversal import (
+from raytruth.reference_tracer.source.shadow import departure, shadow_ray_end
+from raytruth.reference_tracer.source.traversal import (
     NOTHING,
     distance_to_sphere,
     distance_to_triangle,
     is_occluded,
     material_of,
 )
-from reference_tracer.vector import add, along, cross, dot, normalize, subtract
+from raytruth.reference_tracer.source.vector import add, along, cross, dot, normalize, subtract
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
 
 
 @fault("SHAD-1", "is_shadowed", "What can keep the light away from a point?")

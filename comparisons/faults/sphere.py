@@ -5,14 +5,14 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.scene_data import SPHERE_CENTER, SPHERE_RADIUS, number_of, vector_of
-from reference_tracer.sphere import distance_to_other_side, sphere_distance
-from reference_tracer.vector import dot, normalize, scale, subtract
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_RADIUS, number_of, vector_of
+from raytruth.reference_tracer.source.sphere import distance_to_other_side, sphere_distance
+from raytruth.reference_tracer.source.vector import dot, normalize, scale, subtract
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("SPH-1", "root_outside", "Of two hits, which one does the viewer see?")

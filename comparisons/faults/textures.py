@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import floor
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.scene_data import (
     CHECKERBOARD_FIRST_AXIS,
     CHECKERBOARD_FIRST_OFFSET,
     CHECKERBOARD_SECOND_AXIS,
@@ -17,8 +17,8 @@ from reference_tracer.scene_data import (
 )
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 @fault("TEX-1", "is_even_square", "Which colour has the square at the board's own origin?")

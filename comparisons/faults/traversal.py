@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.bounding_volume import box_is_missed, clip
-from reference_tracer.camera import camera_frame, primary_ray
-from reference_tracer.features import BOUNDING_VOLUMES, SPHERES, TRIANGLES
-from reference_tracer.scene_data import (
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.bounding_volume import box_is_missed, clip
+from raytruth.reference_tracer.source.camera import camera_frame, primary_ray
+from raytruth.reference_tracer.source.features import BOUNDING_VOLUMES, SPHERES, TRIANGLES
+from raytruth.reference_tracer.source.scene_data import (
     CAMERA_SIZE,
     NODE_END,
     NODE_FIRST_TRIANGLE,
@@ -25,7 +25,7 @@ from reference_tracer.scene_data import (
     rows_of,
     vector_of,
 )
-from reference_tracer.traversal import (
+from raytruth.reference_tracer.source.traversal import (
     NOTHING,
     distance_to_sphere,
     distance_to_triangle,
@@ -33,10 +33,10 @@ from reference_tracer.traversal import (
     nearest_sphere,
     nearest_triangle,
 )
-from reference_tracer.vector import subtract
+from raytruth.reference_tracer.source.vector import subtract
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Table, Vector
+    from raytruth.reference_tracer.source.numbers import Scalar, Table, Vector
 
 
 @fault("TRAV-1", "nearest_sphere", "Which of all hits does the viewer see?")

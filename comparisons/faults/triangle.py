@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from comparisons.faults.fault import fault
-from reference_tracer.vector import cross, dot, normalize, subtract
+from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.source.vector import cross, dot, normalize, subtract
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
 
 
 @fault("TRI-1", "triangle_distance", "Which three conditions hold for a point inside of a triangle?")

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from comparisons.error_model import ErrorModel, RayOffset
-from comparisons.faults import other_formulas, other_searches, other_starts
-from comparisons.faults.fault import STUDENT, Array, Finish, Function, Subject, subjects_in
-from comparisons.output_model import OutputModel
-from comparisons.srgb import srgb_decoded, srgb_encoded
-from reference_tracer.variants import VARIANTS
+from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.faults import other_formulas, other_searches, other_starts
+from raytruth.comparisons.faults.fault import STUDENT, Array, Finish, Function, Subject, subjects_in
+from raytruth.comparisons.records.srgb import srgb_decoded, srgb_encoded
+from raytruth.reference_tracer.arithmetics.textbook_forms import VARIANTS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

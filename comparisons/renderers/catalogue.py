@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from comparisons.renderers.closed_form import ClosedFormRenderer
-from comparisons.renderers.cycles import Cycles
-from comparisons.renderers.embree import embree, embree_robust
-from comparisons.renderers.mitsuba import mitsuba_llvm, mitsuba_scalar
-from comparisons.renderers.povray import PovRay
-from comparisons.renderers.reference import ReferenceTracer
-from comparisons.renderers.vtk import Vtk
-from scenes.wording import quoted, suggestion
+from raytruth.comparisons.renderers.closed_form.adapter import ClosedFormRenderer
+from raytruth.comparisons.renderers.cycles.adapter import Cycles
+from raytruth.comparisons.renderers.embree.adapter import embree, embree_robust
+from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_llvm, mitsuba_scalar
+from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
+from raytruth.comparisons.renderers.povray import PovRay
+from raytruth.comparisons.renderers.vtk.adapter import Vtk
+from raytruth.scenes.wording import quoted, suggestion
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from comparisons.renderer import Renderer
+    from raytruth.comparisons.renderers.protocol import Renderer
 
 
 # Those whose code is that of another are one opinion, under the name of their project. The tracer itself is none.

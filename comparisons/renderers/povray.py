@@ -12,21 +12,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 import OpenImageIO
 
-from comparisons.error_model import ErrorModel, RayOffset
-from comparisons.isolation import run_isolated
-from comparisons.output_model import OutputModel
-from comparisons.renderer import Integrator, RendererError, Rendering
-from scenes.exporters.povray import SCENE_FILE, export_povray, options_of
-from scenes.exporters.povray_limits import UNIT, refuses
-from scenes.light_paths import WHITTED
+from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.processes.isolation import run_isolated
+from raytruth.comparisons.records.renderings import RendererError, Rendering
+from raytruth.comparisons.renderers.protocol import Integrator
+from raytruth.scenes.exporters.povray import SCENE_FILE, export_povray, options_of
+from raytruth.scenes.exporters.povray_limits import UNIT, refuses
+from raytruth.scenes.light_paths import WHITTED
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from comparisons.renderer import Image, Rays
-    from scenes.scene import Scene
+    from raytruth.comparisons.records.renderings import Image, Rays
+    from raytruth.scenes.scene import Scene
 
 # All files are those of POV-Ray's source at version 3.7.0.10, under source/backend.
 
@@ -59,7 +60,7 @@ PICTURE_FILE = "picture.png"
 
 
 class PovRay:
-    """POV-Ray's program, obeying comparisons.renderer.Renderer."""
+    """POV-Ray's program, obeying the protocol Renderer."""
 
     name = "povray"
     integrators = (Integrator("whitted", WHITTED, has_depth=True),)

@@ -7,21 +7,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scenes.exporters.mitsuba_limits import triangles_of
-from scenes.exporters.povray_materials import relative_index
-from scenes.lights import PointLight
-from scenes.materials import CheckerboardColor
-from scenes.requirements import Feature, required_features
-from scenes.shapes import Mesh, Sphere
+from raytruth.scenes.exporters.mitsuba_limits import triangles_of
+from raytruth.scenes.exporters.povray_materials import relative_index
+from raytruth.scenes.lights import PointLight
+from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.requirements import Feature, required_features
+from raytruth.scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from scenes.materials import Material, Texture
-    from scenes.scene import Scene
-    from scenes.shapes import Shape, Triangle
+    from raytruth.scenes.materials import Material, Texture
+    from raytruth.scenes.scene import Scene
+    from raytruth.scenes.shapes import Shape, Triangle
 
 # Of the socket IOR of Blender's glass.
 LARGEST_INDEX = 1000.0

@@ -13,20 +13,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from scenes.exporters.gltf_limits import notes, refuses
-from scenes.exporters.gltf_materials import color_and_strength, gltf_material
-from scenes.exporters.json_text import json_text
-from scenes.exporters.triangle_soup import triangle_lists, triangles_of_scene
-from scenes.lights import PointLight
-from scenes.shapes import Sphere
+from raytruth.scenes.exporters.gltf_limits import notes, refuses
+from raytruth.scenes.exporters.gltf_materials import color_and_strength, gltf_material
+from raytruth.scenes.exporters.json_text import json_text
+from raytruth.scenes.exporters.triangle_soup import triangle_lists, triangles_of_scene
+from raytruth.scenes.lights import PointLight
+from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from scenes.lights import Light
-    from scenes.scene import Scene
+    from raytruth.scenes.lights import Light
+    from raytruth.scenes.scene import Scene
 
 SCENE_FILE = "scene.gltf"
 # Numbers of glTF's specification for kinds of data ("Accessor Data Types") and for what a buffer view is used as.

@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scenes.exporters.triangle_soup import triangle_lists
-from scenes.lights import PointLight, shines
-from scenes.materials import CheckerboardColor
-from scenes.requirements import used_materials
-from scenes.shapes import Sphere
+from raytruth.scenes.exporters.triangle_soup import triangle_lists
+from raytruth.scenes.lights import PointLight, shines
+from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.requirements import used_materials
+from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from scenes.materials import Material
-    from scenes.scene import Scene
+    from raytruth.scenes.materials import Material
+    from raytruth.scenes.scene import Scene
 
 
 def refuses(scene: Scene) -> str | None:

@@ -11,8 +11,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from scenes.materials import Material
-    from scenes.values import Color
+    from raytruth.scenes.materials import Material
+    from raytruth.scenes.values import Color
 
 
 def gltf_material(name: str, material: Material) -> dict[str, Any]:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scenes.exporters.json_text import json_text
-from scenes.exporters.obj_lines import face_lines, vertex_lines
-from scenes.loading import LARGEST_SCENE_FILE, MOST_MESH_FILES
-from scenes.mesh_files import LARGEST_MESH_FILE
-from scenes.shapes import Mesh
+from raytruth.scenes.exporters.json_text import json_text
+from raytruth.scenes.exporters.obj_lines import face_lines, vertex_lines
+from raytruth.scenes.loading import LARGEST_SCENE_FILE, MOST_MESH_FILES
+from raytruth.scenes.mesh_files import LARGEST_MESH_FILE
+from raytruth.scenes.shapes import Mesh
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 
 def refuses(scene: Scene) -> str | None:

@@ -7,13 +7,13 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from scenes.exporters.mitsuba_elements import add_comment, add_numbers, add_text, add_vector
-from scenes.exporters.mitsuba_files import checkerboard_coordinates, write_gradient, write_triangles
-from scenes.exporters.mitsuba_limits import refuses, reversed_primitives
-from scenes.exporters.mitsuba_materials import add_bsdf, add_texture, checkerboard_of
-from scenes.lights import GradientBackground, PointLight, shines
-from scenes.requirements import used_materials
-from scenes.shapes import Mesh, Sphere
+from raytruth.scenes.exporters.mitsuba_elements import add_comment, add_numbers, add_text, add_vector
+from raytruth.scenes.exporters.mitsuba_files import checkerboard_coordinates, write_gradient, write_triangles
+from raytruth.scenes.exporters.mitsuba_limits import refuses, reversed_primitives
+from raytruth.scenes.exporters.mitsuba_materials import add_bsdf, add_texture, checkerboard_of
+from raytruth.scenes.lights import GradientBackground, PointLight, shines
+from raytruth.scenes.requirements import used_materials
+from raytruth.scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from scenes.lights import Light
-    from scenes.scene import Scene
+    from raytruth.scenes.lights import Light
+    from raytruth.scenes.scene import Scene
 
 SCENE_FILE = "scene.xml"
 GRADIENT_FILE = "background.exr"

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from scenes.exporters.comments import one_line
+from raytruth.scenes.exporters.comments import one_line
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
-    from scenes.values import Vector
+    from raytruth.scenes.values import Vector
 
 
 def add_comment(parent: Element, text: str) -> None:

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from scenes.lights import GradientBackground
-    from scenes.materials import Checkerboard
+    from raytruth.scenes.lights import GradientBackground
+    from raytruth.scenes.materials import Checkerboard
 
 # Mitsuba interpolates linearly in the angle θ from straight up between rows π/(rows-1) apart (envmap.cpp,
 # `eval_spectrum`), where we mean (top+bottom)/2 + cosθ·(top-bottom)/2. The error of linear interpolation is at most

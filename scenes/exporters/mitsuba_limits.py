@@ -6,17 +6,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scenes.camera import OrthographicCamera
-from scenes.lights import PointLight
-from scenes.materials import CheckerboardColor
-from scenes.requirements import Feature, required_features
-from scenes.shapes import Mesh, Sphere, Triangle
+from raytruth.scenes.camera import OrthographicCamera
+from raytruth.scenes.lights import PointLight
+from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.requirements import Feature, required_features
+from raytruth.scenes.shapes import Mesh, Sphere, Triangle
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from scenes.materials import Material
-    from scenes.scene import Scene
+    from raytruth.scenes.materials import Material
+    from raytruth.scenes.scene import Scene
 
 # Mitsuba keeps coordinates in float32: what lies closer to a plane than half an ulp of them is on it.
 FLOAT32_ROUNDOFF = 2.0**-24

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from scenes.exporters.mitsuba_elements import add_numbers, add_text
-from scenes.materials import Checkerboard, CheckerboardColor
+from raytruth.scenes.exporters.mitsuba_elements import add_numbers, add_text
+from raytruth.scenes.materials import Checkerboard, CheckerboardColor
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
-    from scenes.materials import Dielectric, Material, Texture
-    from scenes.scene import Scene
-    from scenes.values import Color
+    from raytruth.scenes.materials import Dielectric, Material, Texture
+    from raytruth.scenes.scene import Scene
+    from raytruth.scenes.values import Color
 
 BLACK: Color = (0.0, 0.0, 0.0)
 

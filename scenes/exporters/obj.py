@@ -8,21 +8,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scenes.exporters.comments import one_line
-from scenes.exporters.obj_lines import face_lines, vertex_lines
-from scenes.exporters.triangle_soup import triangle_lists
-from scenes.lights import shines
-from scenes.materials import CheckerboardColor
-from scenes.requirements import used_materials
-from scenes.shapes import Sphere
+from raytruth.scenes.exporters.comments import one_line
+from raytruth.scenes.exporters.obj_lines import face_lines, vertex_lines
+from raytruth.scenes.exporters.triangle_soup import triangle_lists
+from raytruth.scenes.lights import shines
+from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.requirements import used_materials
+from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from scenes.materials import Material
-    from scenes.scene import Scene
-    from scenes.values import Color
+    from raytruth.scenes.materials import Material
+    from raytruth.scenes.scene import Scene
+    from raytruth.scenes.values import Color
 
 SCENE_FILE = "scene.obj"
 MATERIAL_FILE = "scene.mtl"

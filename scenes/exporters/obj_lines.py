@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from scenes.triangle_lists import Faces, Vertices
+    from raytruth.scenes.triangle_lists import Faces, Vertices
 
 
 def vertex_lines(vertices: Vertices) -> Iterator[str]:

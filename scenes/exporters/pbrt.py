@@ -10,22 +10,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scenes.exporters.pbrt_limits import depth_of, notes, refuses
-from scenes.exporters.pbrt_text import attributes, comment, directive, numbers
-from scenes.exporters.triangle_soup import triangle_lists
-from scenes.lights import ConstantBackground, PointLight, shines
-from scenes.materials import CheckerboardColor
-from scenes.shapes import Sphere
+from raytruth.scenes.exporters.pbrt_limits import depth_of, notes, refuses
+from raytruth.scenes.exporters.pbrt_text import attributes, comment, directive, numbers
+from raytruth.scenes.exporters.triangle_soup import triangle_lists
+from raytruth.scenes.lights import ConstantBackground, PointLight, shines
+from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from scenes.exporters.pbrt_text import Value
-    from scenes.lights import Light
-    from scenes.materials import Checkerboard, Dielectric, Material
-    from scenes.scene import Scene
-    from scenes.shapes import Shape
+    from raytruth.scenes.exporters.pbrt_text import Value
+    from raytruth.scenes.lights import Light
+    from raytruth.scenes.materials import Checkerboard, Dielectric, Material
+    from raytruth.scenes.scene import Scene
+    from raytruth.scenes.shapes import Shape
 
 SCENE_FILE = "scene.pbrt"
 # Each sample is a spectrum at four wavelengths, and meets one light and one way through glass: noise of a few percent.

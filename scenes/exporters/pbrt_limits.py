@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scenes.light_paths import comparable_depth
-from scenes.lights import PointLight
-from scenes.materials import CheckerboardColor
-from scenes.requirements import Feature, required_features, used_materials
+from raytruth.scenes.light_paths import comparable_depth
+from raytruth.scenes.lights import PointLight
+from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.requirements import Feature, required_features, used_materials
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from scenes.materials import Material
-    from scenes.scene import Scene
+    from raytruth.scenes.materials import Material
+    from raytruth.scenes.scene import Scene
 
 # cpu/integrators.cpp, PathIntegrator::Li: light that shines by itself is added after at most maxdepth surfaces, and
 # light from lights at the first maxdepth of them.

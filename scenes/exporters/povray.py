@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scenes.exporters.povray_limits import UNIT, refuses, spans_of
-from scenes.exporters.povray_materials import declare_material, fading, interior_of, polynomial_falloff
-from scenes.exporters.povray_text import block, color, comment, vector
-from scenes.lights import ConstantBackground, PointLight
-from scenes.shapes import Mesh, Sphere
+from raytruth.scenes.exporters.povray_limits import UNIT, refuses, spans_of
+from raytruth.scenes.exporters.povray_materials import declare_material, fading, interior_of, polynomial_falloff
+from raytruth.scenes.exporters.povray_text import block, color, comment, vector
+from raytruth.scenes.lights import ConstantBackground, PointLight
+from raytruth.scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from scenes.lights import Light
-    from scenes.materials import Dielectric
-    from scenes.scene import Scene
-    from scenes.shapes import Shape
+    from raytruth.scenes.lights import Light
+    from raytruth.scenes.materials import Dielectric
+    from raytruth.scenes.scene import Scene
+    from raytruth.scenes.shapes import Shape
 
 SCENE_FILE = "scene.pov"
 # POV-Ray's rays meet no sphere this small (in its units: half a chord must exceed 1e-5), but a point can be inside it.

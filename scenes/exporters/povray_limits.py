@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scenes.exporters.povray_materials import polynomial_falloff, relative_index
-from scenes.shapes import Mesh, Sphere
+from raytruth.scenes.exporters.povray_materials import polynomial_falloff, relative_index
+from raytruth.scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from scenes.materials import Dielectric
-    from scenes.scene import Scene
-    from scenes.shapes import Shape
+    from raytruth.scenes.materials import Dielectric
+    from raytruth.scenes.scene import Scene
+    from raytruth.scenes.shapes import Shape
 
 UNIT = 1024
 """POV-Ray's units in a unit of the scene: a power of two rounds nothing."""

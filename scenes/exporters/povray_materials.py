@@ -14,16 +14,16 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from scenes.exporters.povray_text import block, color, comment, vector
-from scenes.lights import PointLight, PolynomialFalloff
-from scenes.materials import CheckerboardColor
+from raytruth.scenes.exporters.povray_text import block, color, comment, vector
+from raytruth.scenes.lights import PointLight, PolynomialFalloff
+from raytruth.scenes.materials import CheckerboardColor
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from scenes.materials import Checkerboard, Dielectric, Material, Texture
-    from scenes.scene import Scene
-    from scenes.values import Color
+    from raytruth.scenes.materials import Checkerboard, Dielectric, Material, Texture
+    from raytruth.scenes.scene import Scene
+    from raytruth.scenes.values import Color
 
 BLACK = "pigment { rgb 0 }"
 FADE_DISTANCE = 2.0**-26

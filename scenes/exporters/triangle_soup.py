@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scenes.exporters.mitsuba_limits import triangles_of
-from scenes.shapes import Mesh, Sphere
+from raytruth.scenes.exporters.mitsuba_limits import triangles_of
+from raytruth.scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from scenes.scene import Scene
-    from scenes.shapes import Triangle
-    from scenes.triangle_lists import TriangleLists
+    from raytruth.scenes.scene import Scene
+    from raytruth.scenes.shapes import Triangle
+    from raytruth.scenes.triangle_lists import TriangleLists
 
 
 def triangles_of_scene(scene: Scene) -> NDArray[np.float64]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from scenes.families import contacts, lights, optics, sizes
+from raytruth.scenes.families import contacts, lights, optics, sizes
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scenes.families.parts import (
+from raytruth.scenes.families.parts import (
     Rotation,
     build,
     diffuse,
@@ -18,8 +18,8 @@ from scenes.families.parts import (
 )
 
 if TYPE_CHECKING:
-    from scenes.families.parts import Part
-    from scenes.scene import Scene
+    from raytruth.scenes.families.parts import Part
+    from raytruth.scenes.scene import Scene
 
 BACKGROUND = {"color": (0.13, 0.21, 0.34)}
 AXES = ((0.0, 0.0, 8.0), (0.0, 0.0, -8.0), (8.0, 0.0, 0.0), (-8.0, 0.0, 0.0), (0.0, 8.0, 0.0), (0.0, -8.0, 0.0))

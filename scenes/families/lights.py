@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from scenes.families.parts import (
+from raytruth.scenes.families.parts import (
     Rotation,
     build,
     diffuse,
@@ -16,10 +16,10 @@ from scenes.families.parts import (
     triangle,
     untidy,
 )
-from scenes.values import LARGEST_COORDINATE
+from raytruth.scenes.values import LARGEST_COORDINATE
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 FACES_OF_TETRAHEDRON = ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import nextafter
 from typing import TYPE_CHECKING
 
-from scenes.families.parts import (
+from raytruth.scenes.families.parts import (
     Rotation,
     build,
     emission,
@@ -17,7 +17,7 @@ from scenes.families.parts import (
 )
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 SKY = {"bottom": (0.13, 0.11, 0.07), "top": (0.41, 0.57, 0.73)}
 

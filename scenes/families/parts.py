@@ -6,7 +6,7 @@ from math import cos, pi, sin
 from random import Random
 from typing import Any
 
-from scenes.scene import Scene
+from raytruth.scenes.scene import Scene
 
 Part = dict[str, Any]
 Point = tuple[float, float, float]

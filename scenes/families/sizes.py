@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import asin, degrees
 from typing import TYPE_CHECKING
 
-from scenes.families.parts import build, diffuse, emission, floor, lamp, perspective, sphere, triangle, untidy
+from raytruth.scenes.families.parts import build, diffuse, emission, floor, lamp, perspective, sphere, triangle, untidy
 
 if TYPE_CHECKING:
-    from scenes.families.parts import Point
-    from scenes.scene import Scene
+    from raytruth.scenes.families.parts import Point
+    from raytruth.scenes.scene import Scene
 
 
 def scale(parameter: float, seed: int) -> Scene:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
 
-from reports.html import write_html_report
+from raytruth.reports.html import write_html_report
 from tests.reports.sample_results import write_sample
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")

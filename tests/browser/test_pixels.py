@@ -8,9 +8,9 @@ import pytest
 from numpy.typing import NDArray
 from playwright.sync_api import Locator, Page, expect
 
-from comparisons.images import read_image
-from comparisons.pixel_evidence import read_pixel_evidence
-from reports.html import write_html_report
+from raytruth.comparisons.records.image_files import read_image
+from raytruth.comparisons.records.pixel_evidence import read_pixel_evidence
+from raytruth.reports.html import write_html_report
 from tests.browser.contrasts import CONTRASTS, WCAG_AA
 from tests.reports.sample_results import (
     AMBIGUOUS_PIXEL,

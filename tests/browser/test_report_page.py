@@ -8,7 +8,7 @@ import OpenImageIO
 import pytest
 from playwright.sync_api import expect
 
-from reports.wording import WORDINGS
+from raytruth.reports.wording import WORDINGS
 from tests.browser.contrasts import CONTRASTS, WCAG_AA
 from tests.reports.sample_results import ODD_NAME, SIDE, sample_document
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from comparisons.feasible_set import HIT_VALUES, UNUSED, FeasibleSet
+from raytruth.comparisons.feasible_sets.feasible_set import HIT_VALUES, UNUSED, FeasibleSet
 
 Box = tuple[float, float]
 

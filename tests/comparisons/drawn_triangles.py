@@ -7,16 +7,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.renderer import FirstHits, Rays
-from comparisons.view_volume import camera_axes, half_extent, homogeneous_corners, view_volume
-from reference_tracer.rendering import primary_rays
-from scenes.exporters.triangle_soup import triangles_of_scene
+from raytruth.comparisons.error_models.rasterisers.view_volume import (
+    camera_axes,
+    half_extent,
+    homogeneous_corners,
+    view_volume,
+)
+from raytruth.comparisons.records.renderings import FirstHits, Rays
+from raytruth.reference_tracer.rendering import primary_rays
+from raytruth.scenes.exporters.triangle_soup import triangles_of_scene
 from tests.scenes.exporter_scenes import build
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 F = np.float32
 PERSPECTIVE = {"projection": "perspective", "vertical_field_of_view": 50.0}

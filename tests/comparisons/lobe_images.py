@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.lobes import Lobes
+from raytruth.comparisons.noise.lobes import Lobes
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -7,19 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.error_model import ErrorModel
-from comparisons.renderer import Integrator, Rendering
-from reference_tracer.arithmetic import FLOAT
-from reference_tracer.rendering import render
-from scenes.light_paths import WHITTED
-from scenes.requirements import used_materials
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.records.renderings import Rendering
+from raytruth.comparisons.renderers.protocol import Integrator
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.rendering import render
+from raytruth.scenes.light_paths import WHITTED
+from raytruth.scenes.requirements import used_materials
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from comparisons.renderer import Rays
-    from scenes.scene import Scene
+    from raytruth.comparisons.records.renderings import Rays
+    from raytruth.scenes.scene import Scene
 
 
 def truthful(scene: Scene, folder: Path) -> Rendering:
@@ -30,7 +31,7 @@ def truthful(scene: Scene, folder: Path) -> Rendering:
 
 @dataclass
 class Pretender:
-    """Obeys comparisons.renderer.Renderer; counts how often it is tried and asked to render."""
+    """Obeys the protocol Renderer; counts how often it is tried and asked to render."""
 
     answer: Callable[[Scene, Path], Rendering] = truthful
     name: str = "pretender"

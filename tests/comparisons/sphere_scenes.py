@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.renderer import Rays
-from scenes.scene import Scene
+from raytruth.comparisons.records.renderings import Rays
+from raytruth.scenes.scene import Scene
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,22 +9,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from comparisons.feasible_set import FeasibleSet, feasible_set
-from comparisons.judgement import judge_image
-from comparisons.renderer import RendererError
-from comparisons.renderers import povray as adapter
-from comparisons.renderers.povray import PovRay
-from reference_tracer.rendering import render as render_reference
-from scenes.exporters.povray import export_povray
-from scenes.library import open_scene
+from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet, feasible_set
+from raytruth.comparisons.judgement.exact_test import judge_image
+from raytruth.comparisons.records.renderings import RendererError
+from raytruth.comparisons.renderers import povray as adapter
+from raytruth.comparisons.renderers.povray import PovRay
+from raytruth.reference_tracer.rendering import render as render_reference
+from raytruth.scenes.exporters.povray import export_povray
+from raytruth.scenes.library import open_scene
 from tests.comparisons.sphere_scenes import build, point_light, primary_rays
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from comparisons.renderer import Image
-    from comparisons.results import Judgement
-    from scenes.scene import Scene
+    from raytruth.comparisons.records.renderings import Image
+    from raytruth.comparisons.records.results import Judgement
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("REN-4")
 

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from comparisons.cell import CellPlace, run_cell
-from comparisons.feasible_set import feasible_set
-from comparisons.image_judgement import Evidence
-from comparisons.renderer import Rays
-from comparisons.renderers.vtk import Vtk
-from reference_tracer.rendering import primary_rays
+from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
+from raytruth.comparisons.judgement.verdict import Evidence
+from raytruth.comparisons.matrix.cell import CellPlace, run_cell
+from raytruth.comparisons.records.renderings import Rays
+from raytruth.comparisons.renderers.vtk.adapter import Vtk
+from raytruth.reference_tracer.rendering import primary_rays
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from comparisons.results import Cell
-    from scenes.scene import Scene
+    from raytruth.comparisons.records.results import Cell
+    from raytruth.scenes.scene import Scene
 
 # Set where every reference must be there (.ci/run): a missing one then fails its tests instead of leaving them out.
 REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))

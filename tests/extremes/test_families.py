@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from comparisons.feasible_set import FeasibleSet, feasible_set
-from comparisons.judgement import UNJUDGED, distances_in_tolerances
-from comparisons.renderers.reference import ReferenceTracer
-from reference_tracer.arithmetic import FLOAT
-from reference_tracer.rendering import first_hits, prepare, primary_rays, render
-from scenes.families.catalogue import FAMILIES, family
+from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet, feasible_set
+from raytruth.comparisons.judgement.exact_test import UNJUDGED, distances_in_tolerances
+from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.rendering import first_hits, prepare, primary_rays, render
+from raytruth.scenes.families.catalogue import FAMILIES, family
 from tests.reference_tracer.kernels import kept_precision
 
 if TYPE_CHECKING:

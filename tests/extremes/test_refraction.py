@@ -8,7 +8,7 @@ from math import sqrt
 import mpmath
 import pytest
 
-from reference_tracer.refraction import fresnel_reflectance, snell_discriminant
+from raytruth.reference_tracer.source.refraction import fresnel_reflectance, snell_discriminant
 from tests.properties.exact import gamma
 from tests.properties.optical_strategies import MOST_ULPS, SMALLEST_SUBNORMAL, moved
 

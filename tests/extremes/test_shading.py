@@ -10,11 +10,11 @@ import pytest
 from flint import arb, ctx
 from hypothesis import given, target
 
-from reference_tracer import scene_data as layout
-from reference_tracer.illumination import blinn, phong
-from reference_tracer.reflection import mirror_direction
-from reference_tracer.refraction import medium_transmittance
-from reference_tracer.rendering import render
+from raytruth.reference_tracer.rendering import render
+from raytruth.reference_tracer.source import scene_data as layout
+from raytruth.reference_tracer.source.illumination import blinn, phong
+from raytruth.reference_tracer.source.reflection import mirror_direction
+from raytruth.reference_tracer.source.refraction import medium_transmittance
 from tests.properties.optical_strategies import DISTANCES, EXPONENTS, NOT_NUMBERS
 from tests.properties.strategies import Vector, directions
 from tests.reference_tracer.kernels import float_kernel, kept_precision, scene_data

@@ -14,8 +14,11 @@ from fractions import Fraction
 
 import pytest
 
-from reference_tracer.sphere import sphere_distance
-from reference_tracer.variants import perpendicular_sphere_distance, quadratic_sphere_distance
+from raytruth.reference_tracer.arithmetics.textbook_forms import (
+    perpendicular_sphere_distance,
+    quadratic_sphere_distance,
+)
+from raytruth.reference_tracer.source.sphere import sphere_distance
 from tests.properties.exact import bits, root_above
 from tests.properties.strategies import Ray, Sphere, Vector
 from tests.properties.test_sphere import Meeting

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from reference_tracer.triangle import longest_axis, triangle_distance
-from reference_tracer.variants import cramer_triangle_distance, moeller_trumbore
-from reference_tracer.vector import cross, dot, subtract
+from raytruth.reference_tracer.arithmetics.textbook_forms import cramer_triangle_distance, moeller_trumbore
+from raytruth.reference_tracer.source.triangle import longest_axis, triangle_distance
+from raytruth.reference_tracer.source.vector import cross, dot, subtract
 
 if TYPE_CHECKING:
     from collections.abc import Callable

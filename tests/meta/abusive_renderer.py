@@ -6,17 +6,18 @@ import sys
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from comparisons.error_model import ErrorModel
-from comparisons.isolation import run_isolated
-from comparisons.renderer import Integrator, Rendering
-from comparisons.worker_results import read_arrays
-from scenes.light_paths import WHITTED
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.processes.isolation import run_isolated
+from raytruth.comparisons.processes.worker_results import read_arrays
+from raytruth.comparisons.records.renderings import Rendering
+from raytruth.comparisons.renderers.protocol import Integrator
+from raytruth.scenes.light_paths import WHITTED
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from comparisons.renderer import Rays
-    from scenes.scene import Scene
+    from raytruth.comparisons.records.renderings import Rays
+    from raytruth.scenes.scene import Scene
 
 # A misdeed takes a second. Only the one that never ends needs a short limit: others may be slow on a busy machine.
 TIME_LIMIT = 60.0
@@ -70,7 +71,7 @@ MISDEEDS = {
 
 @dataclass
 class AbusiveRenderer:
-    """Obeys comparisons.renderer.Renderer; a misdeed stands for an integrator, so that one run has them all."""
+    """Obeys the protocol Renderer; a misdeed stands for an integrator, so that one run has them all."""
 
     name: str = "abusive"
     install: str = "better not"

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.lobes import Lobes, find_lobes
-from comparisons.radiance_bound import radiance_bound
-from scenes.library import library_names, open_scene
-from scenes.requirements import used_materials
+from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
+from raytruth.comparisons.noise.lobes import Lobes, find_lobes
+from raytruth.scenes.library import library_names, open_scene
+from raytruth.scenes.requirements import used_materials
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 
 def has_random_lobes(scene: Scene) -> bool:
@@ -38,7 +38,7 @@ def lobes_of(name: str, side: int | None = None) -> Lobes:
 
 
 def bound_of(name: str) -> float:
-    """Above every sample, as comparisons/cell.py has it."""
+    """Above every sample, as comparisons/matrix/cell.py has it."""
     bound = radiance_bound(open_scene(name))
     assert bound is not None
     return bound.at_camera * (1 + 2.0**-20)

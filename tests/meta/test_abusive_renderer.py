@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from comparisons import matrix
-from comparisons.cell import CELL_FILE, LOG_FILE, TRUTH_FILE, CellPlace
-from comparisons.matrix import PlannedCell, make_truth, run_cells
-from comparisons.results import Verdict
-from tests.comparisons.test_isolation import assert_ends, children
+from raytruth.comparisons.matrix import matrix
+from raytruth.comparisons.matrix.cell import CELL_FILE, LOG_FILE, TRUTH_FILE, CellPlace
+from raytruth.comparisons.matrix.matrix import PlannedCell, make_truth, run_cells
+from raytruth.comparisons.records.results import Verdict
+from tests.comparisons.processes.test_isolation import assert_ends, children
 from tests.meta.abusive_renderer import LOG_LIMIT, MISDEEDS, AbusiveRenderer
 from tests.reference_tracer.small_scenes import small_scene
 
 if TYPE_CHECKING:
-    from comparisons.results import Cell
+    from raytruth.comparisons.records.results import Cell
 
 pytestmark = pytest.mark.clause("REN-1")
 

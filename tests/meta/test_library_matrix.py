@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from comparisons.results import Results
-from reference_tracer.certified_image import certified_image, largest_value
-from reports.agreement import confirming
-from scenes.library import library_names, open_scene
-from scenes.requirements import Feature, required_features
-from scenes.shapes import Sphere
+from raytruth.comparisons.records.results import Results
+from raytruth.reference_tracer.certified_image import certified_image, largest_value
+from raytruth.reports.agreement import confirming
+from raytruth.scenes.library import library_names, open_scene
+from raytruth.scenes.requirements import Feature, required_features
+from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
     from pathlib import Path

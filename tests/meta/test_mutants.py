@@ -24,7 +24,7 @@ pytestmark = pytest.mark.clause("PRJ-7")
 
 LEAST_SCORE = 0.95
 RESULTS = read_results()
-TESTS_OF_REFLECTION = ["tests/reference_tracer/test_reflection.py"]
+TESTS_OF_REFLECTION = ["tests/reference_tracer/source/test_reflection.py"]
 MIRROR = next(mutant for mutant in mutants_of("reflection") if "-" in mutant.before)
 
 

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from comparisons.error_model import ErrorModel, RayOffset
-from comparisons.feasible_set import feasible_set
-from comparisons.judgement import distances_in_tolerances
-from comparisons.output_model import OutputModel
-from comparisons.ray_offsets import offset_constants, offset_overrides
-from reference_tracer.arithmetic import Arithmetic
-from reference_tracer.rendering import prepare, render_prepared
+from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.ray_offsets import offset_constants, offset_overrides
+from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
+from raytruth.comparisons.judgement.exact_test import distances_in_tolerances
+from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
+from raytruth.reference_tracer.rendering import prepare, render_prepared
 from tests.reference_tracer.kernels import kept_precision
 from tests.reference_tracer.small_scenes import library_scene
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from comparisons.feasible_set import FeasibleSet
+    from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
 
 pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
 

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from comparisons.feasible_set import feasible_set
-from comparisons.judgement import judge_image, verdict_of
-from comparisons.output_model import OutputModel
-from comparisons.renderers.reference import ReferenceTracer
-from comparisons.results import Verdict
-from reference_tracer.arithmetic import FLOAT
-from reference_tracer.rendering import render
-from scenes.lights import PointLight
+from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
+from raytruth.comparisons.judgement.exact_test import judge_image, verdict_of
+from raytruth.comparisons.records.results import Verdict
+from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.rendering import render
+from raytruth.scenes.lights import PointLight
 from tests.reference_tracer.kernels import kept_precision
 from tests.reference_tracer.small_scenes import library_scene
 
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from comparisons.feasible_set import FeasibleSet
-    from scenes.scene import Scene
+    from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
+    from raytruth.scenes.scene import Scene
 
     Array = NDArray[np.float64]
 

@@ -10,23 +10,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from comparisons.cell import CellPlace, run_cell
-from comparisons.comparability import depth_or_reason
-from comparisons.faults.catalogue import all_faults
-from comparisons.feasible_set import feasible_set
-from comparisons.image_judgement import Evidence
-from comparisons.renderer import Rays
-from comparisons.renderers.catalogue import all_renderers
-from comparisons.results import Cell, Verdict
-from reference_tracer.arithmetic import FLOAT
-from reference_tracer.rendering import primary_rays, render
-from scenes.library import open_scene
+from raytruth.comparisons.faults.catalogue import all_faults
+from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
+from raytruth.comparisons.judgement.verdict import Evidence
+from raytruth.comparisons.matrix.cell import CellPlace, run_cell
+from raytruth.comparisons.matrix.comparability import depth_or_reason
+from raytruth.comparisons.records.renderings import Rays
+from raytruth.comparisons.records.results import Cell, Verdict
+from raytruth.comparisons.renderers.catalogue import all_renderers
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.rendering import primary_rays, render
+from raytruth.scenes.library import open_scene
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from comparisons.renderer import Rendering
-    from scenes.scene import Scene
+    from raytruth.comparisons.records.renderings import Rendering
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("VER-12")
 

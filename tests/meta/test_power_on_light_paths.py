@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from comparisons.light_path_test import compare_light_paths
-from comparisons.pixel_areas import area_means
-from comparisons.renderers.mitsuba import LIGHT_PATHS
-from comparisons.rounded_rays import first_hit
-from comparisons.splat_bound import largest_splats
-from comparisons.stochastic import SIGNIFICANCE
-from reference_tracer.arithmetic import FLOAT
-from reference_tracer.rendering import prepare, primary_rays
-from scenes.library import open_scene
+from raytruth.comparisons.feasible_sets.rounded_rays import first_hit
+from raytruth.comparisons.noise.light_path_means import compare_light_paths
+from raytruth.comparisons.noise.mean_test import SIGNIFICANCE
+from raytruth.comparisons.noise.pixel_areas import area_means
+from raytruth.comparisons.noise.splat_bound import largest_splats
+from raytruth.comparisons.renderers.mitsuba.adapter import LIGHT_PATHS
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.rendering import prepare, primary_rays
+from raytruth.scenes.library import open_scene
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from scipy.stats import ks_2samp
 
-from comparisons.renderer import Rays
-from comparisons.renderers.mitsuba import BATCH_SAMPLES, BATCHES, mitsuba_scalar
-from comparisons.stochastic import SIGNIFICANCE, compare_means
-from reference_tracer.rendering import primary_rays
-from scenes.library import open_scene
+from raytruth.comparisons.noise.mean_test import SIGNIFICANCE, compare_means
+from raytruth.comparisons.records.renderings import Rays
+from raytruth.comparisons.renderers.mitsuba.adapter import BATCH_SAMPLES, BATCHES, mitsuba_scalar
+from raytruth.reference_tracer.rendering import primary_rays
+from raytruth.scenes.library import open_scene
 from tests.comparisons.lobe_images import draw_batch_means, truth_of
 from tests.meta.lobe_biases import BIASES, GLASS_SCENES, bound_of, lobes_of
 

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from comparisons.faults.catalogue import all_faults
-from comparisons.faults.variants import all_variants
-from comparisons.kill_matrix import kills_on
-from comparisons.quick_suite import quick_scenes
-from scenes.library import library_names, open_scene
+from raytruth.comparisons.faults.catalogue import all_faults
+from raytruth.comparisons.faults.variants import all_variants
+from raytruth.comparisons.kills.kill_matrix import kills_on
+from raytruth.comparisons.matrix.quick_suite import quick_scenes
+from raytruth.scenes.library import library_names, open_scene
 from tests.reference_tracer.kernels import kept_precision
 
 if TYPE_CHECKING:

@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from comparisons.error_model import ErrorModel
-from comparisons.feasible_set import feasible_set
-from comparisons.judgement import UNJUDGED, distances_in_tolerances
-from comparisons.output_model import OutputModel
-from reference_tracer.arithmetic import FLOAT, Arithmetic
-from reference_tracer.rendering import render
-from reference_tracer.variants import PLAIN_FORMS
-from scenes.library import library_names
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
+from raytruth.comparisons.judgement.exact_test import UNJUDGED, distances_in_tolerances
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, Arithmetic
+from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
+from raytruth.reference_tracer.rendering import render
+from raytruth.scenes.library import library_names
 from tests.reference_tracer.small_scenes import library_scene
 
 pytestmark = pytest.mark.clause("VER-2")

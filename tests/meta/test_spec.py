@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.clauses import FAULTS, TESTS, marked_faults, marked_tests
-from comparisons.faults.catalogue import all_faults
-from comparisons.traceability import traceability
+from raytruth.comparisons.faults.catalogue import all_faults
+from raytruth.specification.clauses import FAULTS, TESTS, marked_faults, marked_tests
+from raytruth.specification.traceability import traceability
 
 pytestmark = pytest.mark.clause("PRJ-6")
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import importlib.util
 from typing import TYPE_CHECKING, Any
 
-from comparisons.faults.fault import Subject
-from comparisons.kill_matrix import kills_on
-from comparisons.quick_suite import quick_scenes
-from scenes.library import library_names, open_scene
+from raytruth.comparisons.faults.fault import Subject
+from raytruth.comparisons.kills.kill_matrix import kills_on
+from raytruth.comparisons.matrix.quick_suite import quick_scenes
+from raytruth.scenes.library import library_names, open_scene
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 # What the tests of physics import from others, and takes long.
 LIBRARIES = ("numba", "numpy", "flint", "mpmath", "hypothesis.extra.numpy", "pydantic", "scipy.optimize", "OpenImageIO")
-COPIED = ("benchmarks", "comparisons", "docs", "raytruth", "reference_tracer", "reports", "scenes", "tests")
+COPIED = ("benchmarks", "comparisons", "docs", "raytruth", "reference_tracer", "reports", "scenes", "specification", "tests")
 # Tests of the physics; those of arithmetics, of kernels and of what is kept would find little more.
 TEST_FOLDERS = ("reference_tracer", "properties", "extremes", "second_opinion")
 NOT_ABOUT_PHYSICS = {
@@ -46,7 +46,7 @@ NOT_ABOUT_PHYSICS = {
     "test_rendering.py",
     "test_source_digest.py",
     "test_ties.py",
-    "test_variants.py",
+    "test_textbook_forms.py",
 }
 OPTIONS = (
     *("-x", "-q", "--no-header", "-p", "no:cacheprovider", "-p", "no:xdist"),
@@ -72,13 +72,13 @@ def load_libraries() -> None:
 def copy_project(folder: Path) -> None:
     """All that the tests of physics need, into a new folder."""
     for name in COPIED:
-        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__", "*.png"))
+        shutil.copytree(ROOT / name, folder / name, symlinks=True, ignore=shutil.ignore_patterns("__pycache__", "*.png"))
     shutil.copy(ROOT / "pyproject.toml", folder)
 
 
 def test_files() -> list[str]:
     """The tests of the tracer's physics, by paths from the project's folder."""
-    paths = [path for folder in TEST_FOLDERS for path in sorted((ROOT / "tests" / folder).glob("test_*.py"))]
+    paths = [path for folder in TEST_FOLDERS for path in sorted((ROOT / "tests" / folder).rglob("test_*.py"))]
     return [path.relative_to(ROOT).as_posix() for path in paths if path.name not in NOT_ABOUT_PHYSICS]
 
 
@@ -92,7 +92,7 @@ def judge(mutant: Mutant, folder: Path, paths: Sequence[str]) -> str:
 
     First the tests of the mutated file, then all others.
     """
-    place = folder / "reference_tracer" / f"{mutant.file}.py"
+    place = folder / "reference_tracer" / "source" / f"{mutant.file}.py"
     durations = json.loads((folder / DURATIONS).read_text(encoding="utf-8"))
     own = [path for path in paths if Path(path).name == f"test_{mutant.file}.py"]
     original, modified = place.read_bytes(), place.stat().st_mtime
@@ -155,7 +155,7 @@ class _Watch:
 
     def pytest_collection_finish(self) -> None:
         """Tests that compile are skipped: other ones run the same source interpreted, and a kernel takes seconds."""
-        arithmetic = importlib.import_module("reference_tracer.arithmetic")
+        arithmetic = importlib.import_module("raytruth.reference_tracer.arithmetics.arithmetic")
         vars(arithmetic)["compiled_module"] = lambda _text: pytest.skip("not compiled for each mutant")
 
     @pytest.hookimpl(wrapper=True)

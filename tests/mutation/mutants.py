@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import re
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ from cosmic_ray.ast.ast_query import ASTQuery
 from cosmic_ray.mutating import mutate_code
 from cosmic_ray.plugins import get_operator, operator_names
 
-from reference_tracer.instantiation import SOURCE_FILES
+from raytruth.reference_tracer.arithmetics.instantiation import SOURCE_FILES
 
 ROOT = Path(__file__).parents[2]
 
@@ -58,7 +59,7 @@ class Mutant:
 
 def path_of(file: str) -> Path:
     """Where that file of the tracer is."""
-    return ROOT / "reference_tracer" / f"{file}.py"
+    return ROOT / "reference_tracer" / "source" / f"{file}.py"
 
 
 @cache
@@ -67,8 +68,17 @@ def text_of(file: str) -> str:
 
 
 def digest_of(file: str) -> str:
-    """Tells whether the file has changed since its mutants were judged."""
-    return hashlib.sha256(text_of(file).encode()).hexdigest()[:16]
+    """Tells whether the program has changed since its mutants were judged: imports and comments are none of it."""
+    return hashlib.sha256(program_of(text_of(file)).encode()).hexdigest()[:16]
+
+
+def program_of(text: str) -> str:
+    """The functions and constants of a file, without comments and docstrings."""
+    kept = [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef | ast.Assign | ast.AnnAssign)]
+    for node in kept:
+        if isinstance(node, ast.FunctionDef) and ast.get_docstring(node) is not None:
+            node.body = node.body[1:]
+    return ast.unparse(ast.Module(body=kept, type_ignores=[]))
 
 
 def mutants_of(file: str) -> list[Mutant]:

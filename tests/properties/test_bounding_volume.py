@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from reference_tracer.bounding_volume import box_is_missed, rounding_allowance
+from raytruth.reference_tracer.source.bounding_volume import box_is_missed, rounding_allowance
 from tests.properties.exact import exact
 from tests.properties.strategies import BOX_PARTS, Fan, Ray, Vector, directions, rays_at_fans, vectors
 from tests.reference_tracer.kernels import numpy_kernel

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference_tracer import scene_data as layout
-from reference_tracer.arithmetic import make_kernel
-from reference_tracer.camera import camera_frame, primary_ray
-from scenes.requirements import Feature
+from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
+from raytruth.reference_tracer.source import scene_data as layout
+from raytruth.reference_tracer.source.camera import camera_frame, primary_ray
+from raytruth.scenes.requirements import Feature
 from tests.properties.exact import Exact, dot, exact, gamma, minus, plus, times
 from tests.properties.strategies import (
     SCALES,

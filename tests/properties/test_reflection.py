@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given
 
-from reference_tracer.reflection import mirror_direction
+from raytruth.reference_tracer.source.reflection import mirror_direction
 from tests.properties.exact import Exact, cross, dot, exact, gamma, length, minus
 from tests.properties.strategies import Vector, directions, rational_unit_vectors, vectors
 from tests.reference_tracer.kernels import exact_kernel

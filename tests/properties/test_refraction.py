@@ -9,7 +9,7 @@ from flint import arb, ctx
 from hypothesis import assume, given, target
 from hypothesis import strategies as st
 
-from reference_tracer.refraction import (
+from raytruth.reference_tracer.source.refraction import (
     fresnel_reflectance,
     medium_transmittance,
     refracted_direction,

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import assume, given, target
 from hypothesis import strategies as st
 
-from reference_tracer.sphere import distance_to_other_side, sphere_distance, sphere_normal
-from reference_tracer.vector import along
+from raytruth.reference_tracer.source.sphere import distance_to_other_side, sphere_distance, sphere_normal
+from raytruth.reference_tracer.source.vector import along
 from tests.properties.exact import dot, exact, gamma, length, minus, plus, root_above, times
 from tests.properties.strategies import (
     AXIS_MAPS,

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference_tracer import scene_data as layout
-from reference_tracer.arithmetic import FLOAT, make_kernel
-from reference_tracer.bounding_volume_tree import build_tree
-from scenes.requirements import Feature
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, make_kernel
+from raytruth.reference_tracer.bounding_volume_tree import build_tree
+from raytruth.reference_tracer.source import scene_data as layout
+from raytruth.scenes.requirements import Feature
 from tests.properties.exact import exact
 from tests.reference_tracer.kernels import EXACT, exact_kernel, float_kernel, fractions_of, scene_data
 from tests.reproduction import note_case

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given, target
 from hypothesis import strategies as st
 
-from reference_tracer.triangle import triangle_distance, triangle_normal
+from raytruth.reference_tracer.source.triangle import triangle_distance, triangle_normal
 from tests.properties.exact import Exact, bits, cross, dot, exact, gamma, minus, plus, size_of_dot, times
 from tests.properties.strategies import (
     AXIS_MAPS,

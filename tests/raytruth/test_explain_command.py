@@ -4,9 +4,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from reference_tracer.explanation import explain
-from reference_tracer.explanation_record import Explanation
-from scenes.library import open_scene
+from raytruth.reference_tracer.explanation import explain
+from raytruth.reference_tracer.explanation_record import Explanation
+from raytruth.scenes.library import open_scene
 from tests.raytruth.running import document, refusal, run
 
 if TYPE_CHECKING:

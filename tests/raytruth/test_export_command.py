@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 import pytest
 
 from raytruth.export_command import FORMATS
-from scenes.library import open_scene
+from raytruth.scenes.library import open_scene
 from tests.raytruth.running import document, refusal, run
 
 if TYPE_CHECKING:

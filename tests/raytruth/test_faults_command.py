@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from comparisons import kill_run
-from comparisons.faults.catalogue import all_faults
-from comparisons.faults.variants import all_variants
-from comparisons.kill_matrix import KillCell, SceneKills
+from raytruth.comparisons.faults.catalogue import all_faults
+from raytruth.comparisons.faults.variants import all_variants
+from raytruth.comparisons.kills import kill_run
+from raytruth.comparisons.kills.kill_matrix import KillCell, SceneKills
 from tests.raytruth.running import refusal, run
 
 if TYPE_CHECKING:

@@ -6,11 +6,11 @@ import numpy as np
 import OpenImageIO
 import pytest
 
-from comparisons.images import read_image
 from raytruth import render_command
-from reference_tracer.arithmetic import FLOAT
-from reference_tracer.rendering import render
-from scenes.library import open_scene
+from raytruth.comparisons.records.image_files import read_image
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.rendering import render
+from raytruth.scenes.library import open_scene
 from tests.raytruth.running import document, refusal, run
 
 if TYPE_CHECKING:

@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from comparisons.renderers.closed_form import ClosedFormRenderer
-from scenes.library import library_names
+from raytruth.comparisons.renderers.closed_form.adapter import ClosedFormRenderer
+from raytruth.scenes.library import library_names
 from tests.raytruth.running import document, refusal, run
 
 pytestmark = pytest.mark.clause("CMD-3", "CMD-4", "REN-5")

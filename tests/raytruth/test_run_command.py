@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from comparisons import matrix, waivers
-from comparisons.renderer import RendererError
-from comparisons.renderers import catalogue
-from comparisons.results import RESULTS_FILE, Results
 from raytruth import run_command
+from raytruth.comparisons.matrix import matrix, waivers
+from raytruth.comparisons.records.renderings import RendererError
+from raytruth.comparisons.records.results import RESULTS_FILE, Results
+from raytruth.comparisons.renderers import catalogue
 from tests.comparisons.pretending import Pretender, truthful
 from tests.comparisons.scene_files import scene_file
 from tests.raytruth.running import document, refusal, run
@@ -22,8 +22,8 @@ from tests.raytruth.running import document, refusal, run
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from comparisons.renderer import Rendering
-    from scenes.scene import Scene
+    from raytruth.comparisons.records.renderings import Rendering
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("CMD-1", "CMD-2", "CMD-4")
 

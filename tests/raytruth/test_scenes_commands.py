@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import jsonschema
 import pytest
 
-from scenes.library import library_names, open_scene
+from raytruth.scenes.library import library_names, open_scene
 from tests.raytruth.running import document, refusal, run
 
 if TYPE_CHECKING:

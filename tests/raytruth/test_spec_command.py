@@ -4,10 +4,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from comparisons.traceability import TABLE
 from raytruth import spec_command
-from tests.comparisons.test_traceability import FILES
+from raytruth.specification.traceability import TABLE
 from tests.raytruth.running import document, refusal, run
+from tests.specification.test_traceability import FILES
 
 if TYPE_CHECKING:
     from pathlib import Path

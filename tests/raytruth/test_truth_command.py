@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from comparisons.images import ImageError
 from raytruth import truth_command
-from scenes.library import library_names
+from raytruth.comparisons.records.image_files import ImageError
+from raytruth.scenes.library import library_names
 from tests.raytruth.running import document, refusal, run
 from tests.reference_tracer.small_scenes import small_scene, sphere
 

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from flint import arb, ctx
 
-from reference_tracer.arithmetic import FLOAT, Arithmetic, make_kernel
-from reference_tracer.balls import Decisions, ball_arithmetic
-from reference_tracer.scene_data import NUMBER_OF_TABLES, SceneData
-from scenes.requirements import Feature
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, Arithmetic, make_kernel
+from raytruth.reference_tracer.arithmetics.balls import Decisions, ball_arithmetic
+from raytruth.reference_tracer.source.scene_data import NUMBER_OF_TABLES, SceneData
+from raytruth.scenes.requirements import Feature
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from reference_tracer.arithmetic import Kernel
+    from raytruth.reference_tracer.arithmetics.arithmetic import Kernel
 
 
 def exact_root(x: Fraction) -> Fraction:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from scenes.library import open_scene
-from scenes.scene import Scene
+from raytruth.scenes.library import open_scene
+from raytruth.scenes.scene import Scene
 
 
 def small_scene(

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference_tracer.bounding_volume_tree import TRIANGLES_IN_A_LEAF, build_tree
+from raytruth.reference_tracer.bounding_volume_tree import TRIANGLES_IN_A_LEAF, build_tree
 
 pytestmark = pytest.mark.clause("ARI-8")
 

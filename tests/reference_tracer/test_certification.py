@@ -9,16 +9,16 @@ from flint import arb, ctx
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference_tracer.arithmetic import FLOAT
-from reference_tracer.balls import ball_arithmetic
-from reference_tracer.certification import FEWEST_BITS, MOST_BITS, NOTHING_KNOWN, Certifier, enclosing_floats
-from reference_tracer.rendering import prepare, render
-from reference_tracer.ties import NO_BOUND, RaisingDecisions
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.arithmetics.balls import ball_arithmetic
+from raytruth.reference_tracer.certification import FEWEST_BITS, MOST_BITS, NOTHING_KNOWN, Certifier, enclosing_floats
+from raytruth.reference_tracer.rendering import prepare, render
+from raytruth.reference_tracer.ties import NO_BOUND, RaisingDecisions
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene, sphere
 from tests.reproduction import note_case
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("ARI-5")
 

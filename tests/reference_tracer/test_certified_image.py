@@ -5,17 +5,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from reference_tracer import certified_image as module
-from reference_tracer.certification import FEWEST_BITS, TWO_ROUNDINGS, Certifier, Enclosure
-from reference_tracer.certified_image import certified_image, largest_value
-from scenes.library import library_names
+from raytruth.reference_tracer import certified_image as module
+from raytruth.reference_tracer.certification import FEWEST_BITS, TWO_ROUNDINGS, Certifier, Enclosure
+from raytruth.reference_tracer.certified_image import certified_image, largest_value
+from raytruth.scenes.library import library_names
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene, sphere
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from reference_tracer.certification import CertifiedPixel
-    from scenes.scene import Scene
+    from raytruth.reference_tracer.certification import CertifiedPixel
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("ARI-6")
 

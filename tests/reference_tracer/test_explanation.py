@@ -1,11 +1,11 @@
 import pytest
 
-from reference_tracer.arithmetic import FLOAT
-from reference_tracer.explanation import MOST_RAYS, ExplanationError, explain
-from reference_tracer.explanation_record import Explanation
-from reference_tracer.rendering import prepare
-from scenes.library import open_scene
-from scenes.scene import Scene
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.explanation import MOST_RAYS, ExplanationError, explain
+from raytruth.reference_tracer.explanation_record import Explanation
+from raytruth.reference_tracer.rendering import prepare
+from raytruth.scenes.library import open_scene
+from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("ARI-7")
 

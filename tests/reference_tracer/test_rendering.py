@@ -3,8 +3,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference_tracer.arithmetic import FLOAT, FLOAT64
-from reference_tracer.rendering import ROWS_IN_A_BAND, first_hits, prepare, primary_rays, render, render_prepared
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT64
+from raytruth.reference_tracer.rendering import (
+    ROWS_IN_A_BAND,
+    first_hits,
+    prepare,
+    primary_rays,
+    render,
+    render_prepared,
+)
 from tests.reference_tracer.small_scenes import library_scene
 
 

@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from reference_tracer import scene_data as layout
-from reference_tracer.arithmetic import FLOAT, FLOAT32, FLOAT64
-from reference_tracer.tables import build_tables, material_number, triangles_of
-from scenes.requirements import Feature, required_features
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64
+from raytruth.reference_tracer.source import scene_data as layout
+from raytruth.reference_tracer.tables import build_tables, material_number, triangles_of
+from raytruth.scenes.requirements import Feature, required_features
 from tests.reference_tracer.small_scenes import lamp, small_scene, sphere, square
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("SCN-6")
 

@@ -6,10 +6,11 @@ from functools import cache
 import pytest
 from flint import arb
 
-from reference_tracer.arithmetic import make_kernel
-from reference_tracer.balls import ball_arithmetic
-from reference_tracer.instantiation import COMPARISONS, kernel_source
-from reference_tracer.ties import (
+from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
+from raytruth.reference_tracer.arithmetics.balls import ball_arithmetic
+from raytruth.reference_tracer.arithmetics.instantiation import COMPARISONS, kernel_source
+from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
+from raytruth.reference_tracer.ties import (
     MEANINGS,
     NO_BOUND,
     NotedDecisions,
@@ -18,8 +19,7 @@ from reference_tracer.ties import (
     explanation,
     sentence,
 )
-from reference_tracer.variants import PLAIN_FORMS
-from scenes.requirements import Feature
+from raytruth.scenes.requirements import Feature
 
 pytestmark = pytest.mark.clause("ARI-3")
 

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from comparisons.images import write_image
-from comparisons.pixel_evidence import PixelEvidence, write_pixel_evidence
+from raytruth.comparisons.records.image_files import write_image
+from raytruth.comparisons.records.pixel_evidence import PixelEvidence, write_pixel_evidence
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from comparisons.renderer import Image
+    from raytruth.comparisons.records.renderings import Image
 
 HOSTILE = "<script>alert('x')</script>\"&{{ 7*7 }}"
 ODD_NAME = "odd name/<b>%20ü"

@@ -5,10 +5,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from comparisons.images import write_image
-from comparisons.pixel_evidence import PixelEvidence, write_pixel_evidence
-from comparisons.results import Cell, Images, Judgement, RendererRecord, Results, SceneRecord, WorstPixel
-from reports.agreement import Agreement, agreement_on, confirming, in_one_line
+from raytruth.comparisons.records.image_files import write_image
+from raytruth.comparisons.records.pixel_evidence import PixelEvidence, write_pixel_evidence
+from raytruth.comparisons.records.results import (
+    Cell,
+    Images,
+    Judgement,
+    RendererRecord,
+    Results,
+    SceneRecord,
+    WorstPixel,
+)
+from raytruth.reports.agreement import Agreement, agreement_on, confirming, in_one_line
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -5,10 +5,10 @@ import pytest
 from rich.cells import cell_len
 from rich.console import Console
 
-from comparisons.results import Results, Verdict
-from reports.console import print_matrix
-from reports.loading import load_results
-from reports.wording import WORDINGS, capped, outcome
+from raytruth.comparisons.records.results import Results, Verdict
+from raytruth.reports.console import print_matrix
+from raytruth.reports.loading import load_results
+from raytruth.reports.wording import WORDINGS, capped, outcome
 from tests.reports.sample_results import write_sample
 
 pytestmark = pytest.mark.clause("REP-6")

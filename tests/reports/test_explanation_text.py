@@ -2,9 +2,9 @@ import re
 
 import pytest
 
-from reference_tracer.explanation import explain
-from reports.explanation_text import explanation_text
-from scenes.library import open_scene
+from raytruth.reference_tracer.explanation import explain
+from raytruth.reports.explanation_text import explanation_text
+from raytruth.scenes.library import open_scene
 
 pytestmark = pytest.mark.clause("ARI-7")
 

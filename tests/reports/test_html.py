@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from comparisons.images import write_image
-from reports.html import ReportError, write_html_report
-from reports.kills import PAGE_FILE
+from raytruth.comparisons.records.image_files import write_image
+from raytruth.reports.html import ReportError, write_html_report
+from raytruth.reports.kills import PAGE_FILE
 from tests.reports.sample_results import HOSTILE, noise, sample_document, sphere_image, write_sample
 
 pytestmark = pytest.mark.clause("REP-1")

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import pytest
 from rich.console import Console
 
-from comparisons.kill_results import RESULTS_FILE, FaultResult, KillResults, VariantResult
-from reports.kills import SHADES, gate_counts, margin, print_kills, shade, summary, write_kill_report
+from raytruth.comparisons.records.kill_results import RESULTS_FILE, FaultResult, KillResults, VariantResult
+from raytruth.reports.kills import SHADES, gate_counts, margin, print_kills, shade, summary, write_kill_report
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from reports.html import REPORT_FILE, write_html_report
-from reports.made_from import is_made_from, made_from
+from raytruth.reports.html import REPORT_FILE, write_html_report
+from raytruth.reports.made_from import is_made_from, made_from
 from tests.reports.sample_results import write_sample
 
 if TYPE_CHECKING:

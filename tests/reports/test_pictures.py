@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from reports import pictures
+from raytruth.reports import pictures
 from tests.reports.sample_results import noise, sphere_image
 
 pytestmark = pytest.mark.clause("REP-5")

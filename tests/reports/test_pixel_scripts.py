@@ -11,11 +11,11 @@ from urllib.parse import unquote
 import numpy as np
 import pytest
 
-from comparisons.images import read_image, write_image
-from comparisons.pixel_evidence import read_pixel_evidence
-from comparisons.results import Cell
-from reports.loading import ReportError
-from reports.pixel_scripts import PixelView, write_pixel_script
+from raytruth.comparisons.records.image_files import read_image, write_image
+from raytruth.comparisons.records.pixel_evidence import read_pixel_evidence
+from raytruth.comparisons.records.results import Cell
+from raytruth.reports.loading import ReportError
+from raytruth.reports.pixel_scripts import PixelView, write_pixel_script
 from tests.reports.sample_results import AMBIGUOUS_PIXEL, FAILING_PIXEL, HOSTILE, SIDE, sample_document
 
 if TYPE_CHECKING:

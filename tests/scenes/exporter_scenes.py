@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from scenes.scene import Scene
+from raytruth.scenes.scene import Scene
 
 RED = {"diffuse": {"reflectance": (0.8, 0.1, 0.1)}}
 MIRROR = {"mirror": {"reflectance": (0.9, 0.9, 0.9)}}

@@ -5,15 +5,15 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from scenes.loading import SceneError, load_scene
-from scenes.scene import Scene
-from scenes.triangle_lists import MeshFileError
+from raytruth.scenes.loading import SceneError, load_scene
+from raytruth.scenes.scene import Scene
+from raytruth.scenes.triangle_lists import MeshFileError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from scenes.triangle_lists import TriangleLists
+    from raytruth.scenes.triangle_lists import TriangleLists
 
 
 def valid_scene() -> dict[str, Any]:

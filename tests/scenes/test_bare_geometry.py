@@ -3,10 +3,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference_tracer.rendering import first_hits, prepare, primary_rays
-from scenes.bare_geometry import bare_geometry
-from scenes.library import library_names, open_scene
-from scenes.scene import Scene
+from raytruth.reference_tracer.rendering import first_hits, prepare, primary_rays
+from raytruth.scenes.bare_geometry import bare_geometry
+from raytruth.scenes.library import library_names, open_scene
+from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("REN-2")
 

@@ -7,14 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scenes.consistency import inconsistencies, parts_of
-from scenes.scene import Scene
+from raytruth.scenes.consistency import inconsistencies, parts_of
+from raytruth.scenes.scene import Scene
 from tests.scenes.scene_files import changed, problems, valid_scene
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from scenes.values import Vector
+    from raytruth.scenes.values import Vector
 
 pytestmark = pytest.mark.clause("SCN-1")
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from scenes.exporters.cycles_limits import refuses
+from raytruth.scenes.exporters.cycles_limits import refuses
 from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
 from tests.scenes.test_exporter_povray_limits import CAMERA, FACES, PARALLEL, TETRAHEDRON
 

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 import trimesh
 
-from reference_tracer.rendering import primary_rays
-from scenes.exporters.gltf import export_gltf
-from scenes.exporters.gltf_limits import notes, refuses
-from scenes.exporters.triangle_soup import triangles_of_scene
-from scenes.library import library_names, open_scene
+from raytruth.reference_tracer.rendering import primary_rays
+from raytruth.scenes.exporters.gltf import export_gltf
+from raytruth.scenes.exporters.gltf_limits import notes, refuses
+from raytruth.scenes.exporters.triangle_soup import triangles_of_scene
+from raytruth.scenes.library import library_names, open_scene
 from tests.scenes.exporter_scenes import BOARD, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
 from tests.scenes.gltf_conformance import violations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("REN-2")
 

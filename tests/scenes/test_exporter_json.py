@@ -9,18 +9,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference_tracer.rendering import render
-from scenes.exporters.json_scene import export_json, notes, refuses
-from scenes.exporters.json_text import json_text
-from scenes.library import library_names, open_scene
-from scenes.loading import LARGEST_SCENE_FILE, MOST_MESH_FILES, load_scene
-from scenes.shapes import Mesh
+from raytruth.reference_tracer.rendering import render
+from raytruth.scenes.exporters.json_scene import export_json, notes, refuses
+from raytruth.scenes.exporters.json_text import json_text
+from raytruth.scenes.library import library_names, open_scene
+from raytruth.scenes.loading import LARGEST_SCENE_FILE, MOST_MESH_FILES, load_scene
+from raytruth.scenes.shapes import Mesh
 from tests.scenes.exporter_scenes import BALL, MIRROR, RED, build
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("REN-2")
 

@@ -11,23 +11,23 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from scenes.exporters.mitsuba import (
+from raytruth.scenes.exporters.mitsuba import (
     GRADIENT_FILE,
     export_mitsuba,
     first_primitives_of,
     light_sources,
     shape_id,
 )
-from scenes.exporters.mitsuba_elements import add_comment
-from scenes.exporters.mitsuba_files import GRADIENT_ROWS, checkerboard_coordinates
-from scenes.materials import Checkerboard
-from scenes.ply_file import read_ply
+from raytruth.scenes.exporters.mitsuba_elements import add_comment
+from raytruth.scenes.exporters.mitsuba_files import GRADIENT_ROWS, checkerboard_coordinates
+from raytruth.scenes.materials import Checkerboard
+from raytruth.scenes.ply_file import read_ply
 from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, LAMP, POINT, RED, SUN, build
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("REN-2")
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from scenes.exporters.mitsuba import export_mitsuba
-from scenes.exporters.mitsuba_limits import refuses, reversed_primitives
+from raytruth.scenes.exporters.mitsuba import export_mitsuba
+from raytruth.scenes.exporters.mitsuba_limits import refuses, reversed_primitives
 from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
 
 if TYPE_CHECKING:

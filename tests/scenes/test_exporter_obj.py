@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 import trimesh
 
-from scenes.exporters.obj import export_obj, notes, refuses
-from scenes.exporters.triangle_soup import material_of_each_triangle, triangles_of_scene
-from scenes.library import library_names, open_scene
-from scenes.obj_file import read_obj
+from raytruth.scenes.exporters.obj import export_obj, notes, refuses
+from raytruth.scenes.exporters.triangle_soup import material_of_each_triangle, triangles_of_scene
+from raytruth.scenes.library import library_names, open_scene
+from raytruth.scenes.obj_file import read_obj
 from tests.scenes.exporter_scenes import BOARD, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, build
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("REN-2")
 

@@ -10,22 +10,22 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference_tracer.rendering import primary_rays
-from scenes.exporters.pbrt import export_pbrt
-from scenes.exporters.pbrt_limits import notes, refuses
-from scenes.exporters.pbrt_text import comment, numbers
-from scenes.exporters.triangle_soup import triangle_lists
-from scenes.library import library_names, open_scene
-from scenes.materials import CheckerboardColor
-from scenes.shapes import Sphere
+from raytruth.reference_tracer.rendering import primary_rays
+from raytruth.scenes.exporters.pbrt import export_pbrt
+from raytruth.scenes.exporters.pbrt_limits import notes, refuses
+from raytruth.scenes.exporters.pbrt_text import comment, numbers
+from raytruth.scenes.exporters.triangle_soup import triangle_lists
+from raytruth.scenes.library import library_names, open_scene
+from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.shapes import Sphere
 from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
 from tests.scenes.pbrt_grammar import Directive, parse
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from scenes.materials import Checkerboard
-    from scenes.scene import Scene
+    from raytruth.scenes.materials import Checkerboard
+    from raytruth.scenes.scene import Scene
 
     Array = np.ndarray[Any, Any]
 

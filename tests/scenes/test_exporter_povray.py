@@ -9,10 +9,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from scenes.exporters.povray import export_povray, options_of
-from scenes.exporters.povray_materials import fading
-from scenes.exporters.povray_text import block, comment, vector
-from scenes.lights import PolynomialFalloff
+from raytruth.scenes.exporters.povray import export_povray, options_of
+from raytruth.scenes.exporters.povray_materials import fading
+from raytruth.scenes.exporters.povray_text import block, comment, vector
+from raytruth.scenes.lights import PolynomialFalloff
 from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from scenes.exporters.povray_limits import refuses
+from raytruth.scenes.exporters.povray_limits import refuses
 from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, MIRROR, POINT, RED, SUN, build
 
 pytestmark = pytest.mark.clause("REN-3")

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from raytruth.export_command import FORMATS
-from scenes.library import library_names, open_scene
-from scenes.lights import PointLight
-from scenes.requirements import Feature, required_features, used_materials
+from raytruth.scenes.library import library_names, open_scene
+from raytruth.scenes.lights import PointLight
+from raytruth.scenes.requirements import Feature, required_features, used_materials
 from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR, POINT, SUN, build
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("REN-3", "PRJ-2")
 

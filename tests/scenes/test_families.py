@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from scenes.consistency import inconsistencies, parts_of
-from scenes.families.catalogue import FAMILIES, family
-from scenes.shapes import Mesh, Sphere, Triangle
+from raytruth.scenes.consistency import inconsistencies, parts_of
+from raytruth.scenes.families.catalogue import FAMILIES, family
+from raytruth.scenes.shapes import Mesh, Sphere, Triangle
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("SCN-7")
 

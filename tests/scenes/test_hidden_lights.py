@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from scenes.hidden_lights import MOST_TRIANGLES, may_be_hidden
-from scenes.library import open_scene
+from raytruth.scenes.hidden_lights import MOST_TRIANGLES, may_be_hidden
+from raytruth.scenes.library import open_scene
 from tests.reference_tracer.kernels import float_kernel
 from tests.scenes.exporter_scenes import LAMP, RED, build
 

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from scenes.library import LIBRARY_FOLDER, library_names, open_scene
-from scenes.loading import SceneError
-from scenes.materials import CheckerboardColor
-from scenes.scene import Scene
-from scenes.shapes import Mesh, Sphere
+from raytruth.scenes.library import LIBRARY_FOLDER, library_names, open_scene
+from raytruth.scenes.loading import SceneError
+from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.scene import Scene
+from raytruth.scenes.shapes import Mesh, Sphere
 from tests.scenes.scene_files import valid_scene, write_scene
 
 pytestmark = pytest.mark.clause("SCN-5")
@@ -138,7 +138,7 @@ def test_a_path_opens_a_file(tmp_path: Path) -> None:
 
 def test_a_folder_called_scenes_in_the_working_directory_does_not_disturb(tmp_path: Path) -> None:
     (tmp_path / "scenes" / "library").mkdir(parents=True)
-    program = "from scenes.library import open_scene; print(open_scene('cornell-box').name)"
+    program = "from raytruth.scenes.library import open_scene; print(open_scene('cornell-box').name)"
     result = subprocess.run(
         [sys.executable, "-c", program],
         cwd=tmp_path,

@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from scenes.library import LIBRARY_FOLDER
-from scenes.library_meshes import MESH_FILES
+from raytruth.scenes.library import LIBRARY_FOLDER
+from raytruth.scenes.library_meshes import MESH_FILES
 
 pytestmark = pytest.mark.clause("SCN-5")
 

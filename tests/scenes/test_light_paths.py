@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from scenes.library import open_scene
-from scenes.light_paths import WHITTED, _Graph, comparable_depth, whitted_class
-from scenes.lights import ConstantBackground
+from raytruth.scenes.library import open_scene
+from raytruth.scenes.light_paths import WHITTED, _Graph, comparable_depth, whitted_class
+from raytruth.scenes.lights import ConstantBackground
 from tests.scenes.exporter_scenes import BALL, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("SCN-8")
 

@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scenes import loading
-from scenes.library import LIBRARY_FOLDER
-from scenes.loading import SceneError, load_scene
-from scenes.scene import Scene
-from scenes.shapes import Mesh
+from raytruth.scenes import loading
+from raytruth.scenes.library import LIBRARY_FOLDER
+from raytruth.scenes.loading import SceneError, load_scene
+from raytruth.scenes.scene import Scene
+from raytruth.scenes.shapes import Mesh
 from tests.scenes.scene_files import TETRAHEDRON, changed, loaded, problems, valid_scene, write_scene
 
 pytestmark = pytest.mark.clause("SCN-1", "SCN-2")

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from pydantic import ValidationError
 
-from scenes.materials import CheckerboardColor, Diffuse, Material
+from raytruth.scenes.materials import CheckerboardColor, Diffuse, Material
 
 pytestmark = pytest.mark.clause("SCN-1")
 

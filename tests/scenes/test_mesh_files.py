@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from scenes import mesh_files
-from scenes.mesh_files import with_triangles
-from scenes.shapes import Mesh
-from scenes.triangle_lists import MeshFileError
+from raytruth.scenes import mesh_files
+from raytruth.scenes.mesh_files import with_triangles
+from raytruth.scenes.shapes import Mesh
+from raytruth.scenes.triangle_lists import MeshFileError
 from tests.scenes.scene_files import TETRAHEDRON, changed, problems
 
 if TYPE_CHECKING:

@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scenes import triangle_lists
-from scenes.obj_file import read_obj
-from scenes.triangle_lists import MeshFileError
+from raytruth.scenes import triangle_lists
+from raytruth.scenes.obj_file import read_obj
+from raytruth.scenes.triangle_lists import MeshFileError
 from tests.scenes.scene_files import is_triangles_or_a_sentence
 
 pytestmark = pytest.mark.clause("SCN-2", "SCN-3")

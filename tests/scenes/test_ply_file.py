@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scenes.ply_file import read_ply
-from scenes.triangle_lists import MeshFileError
+from raytruth.scenes.ply_file import read_ply
+from raytruth.scenes.triangle_lists import MeshFileError
 from tests.scenes.scene_files import is_triangles_or_a_sentence
 
 pytestmark = pytest.mark.clause("SCN-2", "SCN-3")

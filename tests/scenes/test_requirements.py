@@ -4,12 +4,12 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from scenes.library import library_names, open_scene
-from scenes.requirements import TRIANGLES_WITHOUT_TREE, Feature, required_features, used_materials
+from raytruth.scenes.library import library_names, open_scene
+from raytruth.scenes.requirements import TRIANGLES_WITHOUT_TREE, Feature, required_features, used_materials
 from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
 
 if TYPE_CHECKING:
-    from scenes.scene import Scene
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("SCN-6")
 

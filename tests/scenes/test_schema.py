@@ -5,8 +5,8 @@ import json
 import jsonschema
 import pytest
 
-from scenes.library import LIBRARY_FOLDER, library_names
-from scenes.schema import json_schema
+from raytruth.scenes.library import LIBRARY_FOLDER, library_names
+from raytruth.scenes.schema import json_schema
 from tests.scenes.scene_files import changed, valid_scene
 
 pytestmark = pytest.mark.clause("SCN-4")

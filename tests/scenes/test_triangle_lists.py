@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scenes.triangle_lists import LARGEST_FACE_COUNT, MeshFileError, check_coordinate, check_face_count, fan
+from raytruth.scenes.triangle_lists import LARGEST_FACE_COUNT, MeshFileError, check_coordinate, check_face_count, fan
 
 pytestmark = pytest.mark.clause("SCN-3")
 

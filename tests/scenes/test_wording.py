@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scenes.wording import LONGEST_QUOTE, described, place, quoted, suggestion
+from raytruth.scenes.wording import LONGEST_QUOTE, described, place, quoted, suggestion
 
 pytestmark = pytest.mark.clause("SCN-1")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from scenes.scene import Scene
+from raytruth.scenes.scene import Scene
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,7 +9,7 @@ from mpmath import mp, mpf
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from scenes.camera import Camera
+    from raytruth.scenes.camera import Camera
 
 Number = Any
 """An mpf: mpmath's types are not stated."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import floor, inf, sqrt
 from typing import TYPE_CHECKING
 
-from reference_tracer.illumination import diffuse
-from reference_tracer.reflection import mirror_direction
-from reference_tracer.refraction import fresnel_reflectance
-from reference_tracer.scene_data import (
+from raytruth.reference_tracer.source.illumination import diffuse
+from raytruth.reference_tracer.source.reflection import mirror_direction
+from raytruth.reference_tracer.source.refraction import fresnel_reflectance
+from raytruth.reference_tracer.source.scene_data import (
     BACKGROUND_COLOR,
     CHECKERBOARD_FIRST_OFFSET,
     CHECKERBOARD_SECOND_OFFSET,
@@ -21,12 +21,12 @@ from reference_tracer.scene_data import (
     number_of,
     vector_of,
 )
-from reference_tracer.texture import textured
-from reference_tracer.vector import add, along, cross, dot, multiply, negate, normalize, scale, subtract
+from raytruth.reference_tracer.source.texture import textured
+from raytruth.reference_tracer.source.vector import add, along, cross, dot, multiply, negate, normalize, scale, subtract
 
 if TYPE_CHECKING:
-    from reference_tracer.numbers import Scalar, Vector
-    from reference_tracer.scene_data import SceneData
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
 def cosine_squared(

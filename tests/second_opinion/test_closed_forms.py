@@ -12,9 +12,9 @@ from hypothesis import given, note
 from hypothesis import strategies as st
 from mpmath import mp
 
-from reference_tracer.balls import ball_arithmetic
-from reference_tracer.rendering import prepare
-from reference_tracer.ties import RaisingDecisions
+from raytruth.reference_tracer.arithmetics.balls import ball_arithmetic
+from raytruth.reference_tracer.rendering import prepare
+from raytruth.reference_tracer.ties import RaisingDecisions
 from tests.reproduction import note_case
 from tests.second_opinion import case as make
 from tests.second_opinion.closed_forms import CLOSED_FORMS

@@ -1,4 +1,4 @@
-"""The tracer's source in mpmath's numbers: a second opinion on Arb and reference_tracer/balls.py, not on formulas."""
+"""The tracer's source in mpmath's numbers: a second opinion on Arb and reference_tracer/arithmetics/balls.py, not on formulas."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ import pytest
 from flint import arb, ctx
 from mpmath import mp, mpf
 
-from reference_tracer.arithmetic import Arithmetic, make_kernel
-from reference_tracer.certification import Certifier
-from reference_tracer.tables import build_tables
-from scenes.library import library_names, open_scene
-from scenes.requirements import required_features
+from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic, make_kernel
+from raytruth.reference_tracer.certification import Certifier
+from raytruth.reference_tracer.tables import build_tables
+from raytruth.scenes.library import library_names, open_scene
+from raytruth.scenes.requirements import required_features
 from tests.second_opinion.truth import MORE_DIGITS, with_own_error
 
 if TYPE_CHECKING:
-    from reference_tracer.arithmetic import Kernel
-    from reference_tracer.certification import Enclosure
-    from reference_tracer.scene_data import SceneData
-    from scenes.requirements import Feature
+    from raytruth.reference_tracer.arithmetics.arithmetic import Kernel
+    from raytruth.reference_tracer.certification import Enclosure
+    from raytruth.reference_tracer.source.scene_data import SceneData
+    from raytruth.scenes.requirements import Feature
 
 pytestmark = pytest.mark.clause("ARI-10")
 

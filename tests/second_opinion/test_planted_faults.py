@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from comparisons.faults.catalogue import all_faults
-from reference_tracer.ties import UndecidedComparisonError
+from raytruth.comparisons.faults.catalogue import all_faults
+from raytruth.reference_tracer.ties import UndecidedComparisonError
 from tests.second_opinion import flat_glass, mirrors, planted_faults, round_glass, shadows, surfaces
 from tests.second_opinion.closed_forms import CLOSED_FORMS
 from tests.second_opinion.truth import agree, certified, with_own_error

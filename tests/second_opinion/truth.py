@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any
 from flint import arb, ctx
 from mpmath import mp
 
-from reference_tracer.arithmetic import make_kernel
-from reference_tracer.balls import ball_arithmetic
-from reference_tracer.tables import build_tables
-from reference_tracer.ties import RaisingDecisions, UndecidedComparisonError
-from scenes.requirements import required_features
+from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
+from raytruth.reference_tracer.arithmetics.balls import ball_arithmetic
+from raytruth.reference_tracer.tables import build_tables
+from raytruth.reference_tracer.ties import RaisingDecisions, UndecidedComparisonError
+from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from reference_tracer.arithmetic import Arithmetic, Kernel
-    from scenes.scene import Scene
+    from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic, Kernel
+    from raytruth.scenes.scene import Scene
     from tests.second_opinion.paper import Vector
 
     Overrides = Mapping[str, Callable[..., object]]

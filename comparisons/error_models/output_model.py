@@ -1,0 +1,131 @@
+"""Output models: how a renderer turns radiance into the numbers it writes, and what is read back from them.
+
+Radiance is clipped, encoded by a transfer curve and rounded to a number format. Each step is monotone, so an interval
+of radiance becomes an interval of codes, found from its two ends. Pixels are judged as linear values that were read
+back from the codes; a code stands for everything up to halfway to its neighbours, so that it does not matter with how
+many roundings the reader decodes it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from raytruth.comparisons.records.srgb import srgb_decoded, srgb_encoded
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+
+LARGEST_CODES = {"uint8": 255, "uint16": 65535}
+"""The code of 1; 0 is the code of 0."""
+
+# Renderers whose own numbers are wider may still go through float32 on their way to a file.
+FLOAT32_ROUNDOFF = 2.0**-24
+# To float32, times the largest code, plus a half.
+LINEAR_ROUNDOFFS = 3
+# The encoding 1.055·x^(1/2.4) - 0.055, in roundoffs for x from 0.0031308 to 1: x itself 1/2.4; the exponent |ln x|/2.4,
+# up to 2.4; the power function 4 (two units in the last place); its factor and the product 2; the subtraction magnifies
+# these by up to 2.4, and adds the constant's 1.4 and 1; the three of above. That is 27, rounded up to a power of two.
+# Beyond 1 only the exponent's share grows, and nothing is magnified: it holds for all x up to 1e20. The decoding takes
+# fewer: the sum 2, the quotient 2, magnified by 2.4; the exponent 2.4·|ln|, up to 5.8; the power function 4.
+CURVE_ROUNDOFFS = 32
+
+
+@dataclass(frozen=True)
+class OutputModel:
+    """What becomes of radiance in the file. Raises ValueError for integers that are not clipped."""
+
+    numbers: Literal["uint8", "uint16", "float16", "float32", "float64"] = "float32"
+    transfer: Literal["linear", "sRGB"] = "linear"
+    """Whether the curve of sRGB (IEC 61966-2-1:1999, section 5.2) is applied before rounding."""
+    rounding: Literal["nearest", "truncation"] = "nearest"
+    clipped: bool = False
+    """To [0, 1]."""
+    bracketed: bool = False
+    """Whether the picture is written at the exposures 1, 1/2, 1/4, …, and each value read from the brightest one in
+    which its code is not the largest. Only of linear integers."""
+    color_error: float = 0.0
+    """How far a colour may be off before all this, by arithmetic that is coarser than that of the rays: in units of
+    the colour or, if it is under 1, of 1, from which it may be the difference."""
+
+    def __post_init__(self) -> None:
+        if self.numbers in LARGEST_CODES and not (self.clipped or self.bracketed):
+            raise ValueError("integers hold nothing outside [0, 1], so their output is clipped or bracketed")
+        if self.bracketed and (self.clipped or self.numbers not in LARGEST_CODES or self.transfer != "linear"):
+            raise ValueError("only linear integers are bracketed, and then they are not clipped")
+
+    def interval_read(self, low: ArrayLike, high: ArrayLike) -> tuple[Array, Array]:
+        """The linear values that may be read where the radiance is in [low, high]; NaN stays NaN.
+
+        Above what a format can hold the ends are infinite, as what is written there.
+        """
+        return self._end_read(np.asarray(low, np.float64), -1), self._end_read(np.asarray(high, np.float64), 1)
+
+    def linear_values(self, written: ArrayLike) -> Array:
+        """What is read from codes or numbers of a file: linear values, where 1 is the largest code of integers."""
+        values = np.asarray(written, np.float64) / LARGEST_CODES.get(self.numbers, 1)
+        return srgb_decoded(values) if self.transfer == "sRGB" else values
+
+    def in_words(self) -> str:
+        """One clause."""
+        clipping = "clipped to [0, 1]" if self.clipped else "not clipped"
+        if self.bracketed:
+            clipping = "at the brightest of the exposures 1, 1/2, 1/4, … that does not clip"
+        rounding = "rounded to the nearest" if self.rounding == "nearest" else "truncated"
+        colors = f", of colours computed within {self.color_error:.3g}" if self.color_error > 0.0 else ""
+        return f"{self.numbers}, {self.transfer}, {rounding}, {clipping}{colors}"
+
+    def _end_read(self, radiance: Array, side: int) -> Array:
+        """The lowest (side -1) or highest (side 1) value that may be read for this radiance."""
+        computed = (
+            radiance + side * self.color_error * np.maximum(np.abs(radiance), 1.0) if self.color_error else radiance
+        )
+        clipped = np.clip(computed, 0.0, 1.0) if self.clipped else computed
+        encoded = srgb_encoded(clipped) if self.transfer == "sRGB" else clipped
+        exposure = self._exposure(encoded, side) if self.bracketed else 1.0
+        encoded = encoded * exposure
+        written = self._integers(encoded, side) if self.numbers in LARGEST_CODES else self._floats(encoded, side)
+        read = self.linear_values(written) / exposure
+        return read + side * CURVE_ROUNDOFFS * FLOAT32_ROUNDOFF * np.abs(read) if self.transfer == "sRGB" else read
+
+    def _exposure(self, encoded: Array, side: int) -> Array:
+        """The brightest exposure in which this value, moved by all that may move it, is not written as the largest."""
+        largest = LARGEST_CODES[self.numbers]
+        first_clipped = largest - (0.5 if self.rounding == "nearest" else 0.0)
+        codes = encoded * largest + side * self._slack() * (encoded * largest + 0.5)
+        _, exponents = np.frexp(np.maximum(codes, 0.0) / first_clipped)  # the least power of two above
+        return np.ldexp(1.0, -np.maximum(exponents, 0))
+
+    def _integers(self, encoded: Array, side: int) -> Array:
+        """The farthest code that may be written, and half a code more."""
+        largest = LARGEST_CODES[self.numbers]
+        # The half that is added before the integer part is taken has a rounding, too.
+        codes = encoded * largest + side * self._slack() * (encoded * largest + 0.5)
+        codes = np.rint(codes) if self.rounding == "nearest" else np.floor(codes)
+        return np.asarray(np.clip(codes, 0, largest) + 0.5 * side, np.float64)
+
+    def _floats(self, encoded: Array, side: int) -> Array:
+        """The farthest number that may be written, and half the way to the next; none is beyond the largest."""
+        farthest = encoded + side * self._slack() * np.abs(encoded)
+        with np.errstate(over="ignore"):  # what the format cannot hold is infinite in it
+            written: NDArray[Any] = farthest.astype(self.numbers)
+            if self.rounding == "truncation":
+                toward_zero = np.nextafter(written, written.dtype.type(0))
+                written = np.where(np.abs(written.astype(np.float64)) > np.abs(farthest), toward_zero, written)
+            neighbour = np.nextafter(written, written.dtype.type(side * np.inf)).astype(np.float64)
+        value = written.astype(np.float64)
+        if self.numbers == "float64":
+            return value  # nothing lies between two neighbours
+        has_neighbour = np.isfinite(value) & np.isfinite(neighbour)
+        halfway = 0.5 * np.where(has_neighbour, value, 0.0) + 0.5 * np.where(has_neighbour, neighbour, 0.0)
+        return np.where(has_neighbour, halfway, value)
+
+    def _slack(self) -> float:
+        """How far a renderer's own rounding may move a number before it is written, relatively."""
+        if self.transfer == "sRGB":
+            return CURVE_ROUNDOFFS * FLOAT32_ROUNDOFF
+        return 0.0 if self.numbers in {"float32", "float64"} else LINEAR_ROUNDOFFS * FLOAT32_ROUNDOFF

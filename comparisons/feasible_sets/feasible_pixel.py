@@ -1,0 +1,170 @@
+"""Every value that one pixel may take in a given ball arithmetic.
+
+The ray tree is walked ray by ray. A ray whose comparisons are undecided has several outcomes; the outcomes of a pixel
+are all sums over its tree. Where there are too many, they are merged into one box that holds them all; and a ray of
+which nothing can be said contributes anything between black and the brightest radiance of the scene.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from flint import arb
+
+from raytruth.reference_tracer.arithmetics.balls import TooManyOutcomesError, every_outcome
+from raytruth.reference_tracer.source.traversal import NOTHING
+
+if TYPE_CHECKING:
+    from raytruth.comparisons.feasible_sets.radiance_bound import RadianceBound
+    from raytruth.comparisons.feasible_sets.rounded_rays import Box, RoundedRays
+
+# Four independent undecided comparisons; more than this many outcomes are merged into one box.
+MOST_OUTCOMES = 16
+
+
+class UndecidableError(Exception):
+    """Nothing can be said of this pixel: its arithmetic breaks down, and the scene gives no bound."""
+
+
+@dataclass(frozen=True)
+class FirstHit:
+    """One way the primary ray may go: a primitive (-1: none) and balls for distance, position and normal."""
+
+    primitive: int
+    values: tuple[Any, ...]
+    """Seven: distance, position, normal; empty where nothing is hit."""
+
+
+class PixelEvaluator:
+    """Evaluates the pixels of one scene; `bound` limits what any ray can bring, None if that is unknown."""
+
+    def __init__(self, rays: RoundedRays, bound: RadianceBound | None, output_bits: int) -> None:
+        self.rays = rays
+        self.bound = bound
+        self.negligible_weight = 2.0**-output_bits
+        """What is under a rounding of the brightest value does not deserve its own tree."""
+        self.excess = 1.0 + 2.0 ** (10 - output_bits)
+        """Rounding may lift a value above the bound: by a roundoff an operation, and a pixel has fewer than 2^10."""
+        scene = rays.prepared.scene
+        self.depth = scene.max_depth
+        self.medium = -1 if scene.camera.inside is None else list(scene.materials).index(scene.camera.inside)
+        self.merged = False
+        self.may_merge = True
+        self._primary: tuple[tuple[int, int], tuple[Any, Any]] | None = None
+
+    def colors(self, column: int, line: int, *, may_merge: bool = True) -> tuple[list[Box], bool]:
+        """The boxes of a pixel's feasible colours, and whether there were too many to tell apart.
+
+        Raises UndecidableError, also where one box spans more than half of all that a ray of the scene may bring: such
+        a pixel would pass with almost any value; and as soon as outcomes must be merged, unless they may be.
+        """
+        origin, direction = self._primary_ray(column, line)
+        white = (arb(1), arb(1), arb(1))
+        self.merged, self.may_merge = False, may_merge
+        boxes = self._outcomes((origin, direction, white, NOTHING, self.medium, self.depth), MOST_OUTCOMES)
+        if self.bound is not None and 2 * widest(boxes) > self.bound.at_camera / 2:
+            raise UndecidableError
+        return boxes, self.merged
+
+    def first_hits(self, column: int, line: int) -> list[FirstHit]:
+        """What the pixel's ray may meet first. Raises UndecidableError."""
+        origin, direction = self._primary_ray(column, line)
+        try:
+            hits = every_outcome(lambda: self.rays.first_hit(origin, direction), self.rays.decisions, MOST_OUTCOMES)
+            found = [FirstHit(*hit) for hit in hits]
+        except TooManyOutcomesError as error:
+            raise UndecidableError from error
+        if not all(value.is_finite() for hit in found for value in hit.values):
+            raise UndecidableError  # a triangle seen edge on may be met anywhere
+        return found
+
+    def _primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+        """The very same for a pixel's colours and first hits, which makes it cheaper to meet."""
+        if self._primary is None or self._primary[0] != (column, line):
+            self._primary = (column, line), self.rays.primary_ray(column, line)
+        return self._primary[1]
+
+    def _outcomes(self, ray: Any, most: int) -> list[Box]:
+        """All that a ray and those that go on from it may contribute.
+
+        `most` is how many outcomes may still be told apart on the way from the camera: a ray with k outcomes leaves
+        its children a k-th of it, so that the work for a pixel stays in proportion to the size of its tree.
+        """
+        weight = ray[2]
+        if self.bound is not None and all(channel < self.negligible_weight for channel in weight):
+            return [self._anything(weight)]
+        try:
+            steps = list(every_outcome(lambda: self._step(ray), self.rays.decisions, most))
+        except TooManyOutcomesError:
+            self._merge()
+            return [self._anything(weight)]
+        boxes: list[Box] = []
+        for local, children in steps:
+            sums = [local]
+            for child in children:
+                added = self._outcomes(child, max(1, most // len(steps)))
+                if len(sums) * len(added) > MOST_OUTCOMES:
+                    sums, added = self._hull(sums), self._hull(added)
+                sums = [_sum(a, b) for a in sums for b in added]
+            boxes.extend(sums)
+        boxes = boxes if len(boxes) <= MOST_OUTCOMES else self._hull(boxes)
+        if self.bound is None:
+            if not all(channel.is_finite() for box in boxes for channel in box):
+                raise UndecidableError
+            return boxes
+        possible = self._anything(weight)
+        return [_common(box, possible) for box in boxes]
+
+    def _step(self, ray: Any) -> tuple[Box, list[Any]]:
+        """The ray's own contribution, and the rays that go on from its end."""
+        local, children = self.rays.trace(ray)
+        if self.bound is None:
+            return local, children
+        # No surface of such a scene gives back more than it gets, however little the balls know of Fresnel's split.
+        most = self._from_black(ray[2], self.bound.growth * self.excess)
+        return local, [(*child[:2], _common(child[2], most), *child[3:]) for child in children]
+
+    def _anything(self, weight: Box) -> Box:
+        """From black to the weight times the brightest radiance."""
+        if self.bound is None:
+            raise UndecidableError
+        return self._from_black(weight, self.bound.radiance * self.excess)
+
+    def _merge(self) -> None:
+        if not self.may_merge:
+            raise UndecidableError
+        self.merged = True
+
+    def _hull(self, boxes: list[Box]) -> list[Box]:
+        """The one box that holds them all."""
+        self._merge()
+        red, green, blue = boxes[0]
+        for box in boxes[1:]:
+            red, green, blue = red.union(box[0]), green.union(box[1]), blue.union(box[2])
+        return [(red, green, blue)]
+
+    @staticmethod
+    def _from_black(weight: Box, factor: float) -> Box:
+        """The balls from 0 to a finite weight times the factor."""
+        halves = [channel.upper() * (factor / 2) for channel in weight]
+        red, green, blue = (arb(half, half.upper()) for half in halves)
+        return red, green, blue
+
+
+def _sum(a: Box, b: Box) -> Box:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def _common(box: Box, possible: Box) -> Box:
+    """What a box and one that surely holds the value have in common: the latter where the arithmetic broke down."""
+    red, green, blue = (
+        ball.intersection(limit) if ball.is_finite() and ball.overlaps(limit) else limit
+        for ball, limit in zip(box, possible, strict=True)
+    )
+    return red, green, blue
+
+
+def widest(boxes: list[Box]) -> float:
+    """The largest radius of any ball."""
+    return max(float(channel.rad()) for box in boxes for channel in box)

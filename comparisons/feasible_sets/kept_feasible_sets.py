@@ -1,0 +1,63 @@
+"""Feasible sets, kept from run to run: they depend on a scene and an error model, not on what a renderer gave.
+
+So whoever changes a renderer and runs the matrix again waits for the renderer only.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import zipfile
+import zlib
+from dataclasses import fields
+from typing import TYPE_CHECKING
+
+import flint
+import numpy as np
+
+from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet, feasible_set
+from raytruth.comparisons.matrix.cell_key import APART
+from raytruth.reference_tracer.storage.cache import cache_folder, written_whole
+from raytruth.reference_tracer.storage.source_digest import source_digest
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.scenes.scene import Scene
+
+
+def kept_feasible_set(scene: Scene, error_model: ErrorModel, *, with_colors: bool = True) -> FeasibleSet:
+    """As `feasible_set`: the one from the cache if neither the scene, the error model nor our code has changed since.
+
+    There is one place in the cache for each scene's name and error model, so that it does not grow with each change.
+    """
+    code = source_digest("scenes", "reference_tracer", "comparisons", without=APART)
+    key = _digest(scene.model_dump_json(), code, flint.__version__, flint.__FLINT_VERSION__, np.__version__)
+    path = cache_folder() / "feasible" / f"{_digest(scene.name, repr(error_model), str(with_colors))}.npz"
+    kept = _read(path, key)
+    if kept is None:
+        kept = feasible_set(scene, error_model, with_colors=with_colors)
+        _write(path, key, kept)
+    return kept
+
+
+def _digest(*parts: str) -> str:
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
+
+
+def _write(path: Path, key: str, feasible: FeasibleSet) -> None:
+    """Most places for outcomes are unused, which compresses well."""
+    arrays = {field.name: getattr(feasible, field.name) for field in fields(FeasibleSet)}
+    with written_whole(path) as file:
+        np.savez_compressed(file, allow_pickle=False, key=np.array(key), **arrays)
+
+
+def _read(path: Path, key: str) -> FeasibleSet | None:
+    """None if there is none of this key, or if its file is damaged."""
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            if str(arrays["key"]) != key:
+                return None
+            return FeasibleSet(**{field.name: arrays[field.name] for field in fields(FeasibleSet)})
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
+        return None

@@ -1,0 +1,205 @@
+"""Rays as a renderer may compute them: each stands for all the rays that rounding may make of one.
+
+Two ways to follow them. `PlainRays` are quick: every number is a ball. `LinkedRays` are tight, and some twenty times
+slower: numbers know which errors they share, so a bundle of rays keeps its shape from bounce to bounce.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Protocol
+
+from flint import arb
+
+from raytruth.comparisons.error_models.rasterisers.rasterisation import rasterisation_constants, rasterisation_overrides
+from raytruth.comparisons.error_models.ray_offsets import offset_constants, offset_overrides
+from raytruth.comparisons.error_models.triangle_points import triangle_point_constants, triangle_point_overrides
+from raytruth.comparisons.error_models.triangle_tests import triangle_test_constants, triangle_test_overrides
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.arithmetics.balls import MARGIN_BITS, Decisions, ball_arithmetic, rounded_ball_arithmetic
+from raytruth.reference_tracer.arithmetics.linked_arithmetic import linked_arithmetic
+from raytruth.reference_tracer.arithmetics.linked_balls import condensed, enclose, enclosure
+from raytruth.reference_tracer.rendering import prepare
+from raytruth.reference_tracer.source.scene_data import MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX, rows_of
+from raytruth.reference_tracer.source.traversal import NOTHING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.reference_tracer.rendering import PreparedScene
+    from raytruth.scenes.scene import Scene
+
+    Overrides = Mapping[str, Callable[..., object]]
+
+Box = tuple[Any, Any, Any]
+"""A ball for each channel."""
+Ray = tuple[Any, ...]
+"""As in reference_tracer/source/ray_tree.py: numbers of the way chosen, except the weight, which is a box."""
+
+
+class RoundedRays(Protocol):
+    """A way to follow rays through one scene. Undecided comparisons ask the decisions."""
+
+    prepared: PreparedScene
+    decisions: Decisions
+
+    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+        """Origin and direction through the centre of a pixel, or any point as near to it as the error model says."""
+
+    def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
+        """What a ray brings by itself, and the rays that go on from its end."""
+
+    def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
+        """The primitive that a primary ray meets (-1: none), and balls for distance, position and normal."""
+
+
+class PlainRays:
+    """Rays whose numbers are balls, obeying RoundedRays."""
+
+    def __init__(self, scene: Scene, error_model: ErrorModel, overrides: Overrides | None = None) -> None:
+        self.decisions = Decisions()
+        arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model, scene))
+        self.prepared = prepare(scene, arithmetic, {**_overrides(error_model), **(overrides or {})})
+        store_indices(self.prepared, error_model.index_bits)
+        kernel = self.prepared.kernel
+        kernel.nearest_hit = RememberedHit(kernel.nearest_hit, self.decisions)
+        camera = _exact_camera(scene, error_model) or self.prepared
+        self._primary_ray = camera.kernel.primary_ray
+        self._frame = camera.kernel.camera_frame(camera.data)
+        self._image_radius = error_model.image_radius
+
+    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+        """As the protocol says."""
+        x, y = arb(column + 0.5, self._image_radius), arb(line + 0.5, self._image_radius)
+        ray: tuple[Any, Any] = self._primary_ray(self._frame, x, y)
+        return ray
+
+    def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
+        """As the protocol says."""
+        children: list[Ray] = []
+        local: Box = self.prepared.kernel.trace_ray(self.prepared.data, ray, children)
+        return local, children
+
+    def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
+        """As the protocol says."""
+        return first_hit(self.prepared, origin, direction)
+
+
+class LinkedRays:
+    """Rays whose numbers are linked balls, obeying RoundedRays."""
+
+    def __init__(self, scene: Scene, error_model: ErrorModel, overrides: Overrides | None = None) -> None:
+        self.decisions = Decisions()
+        arithmetic = linked_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model, scene))
+        self.prepared = prepare(scene, arithmetic, {**_overrides(error_model), **(overrides or {})})
+        store_indices(self.prepared, error_model.index_bits)
+        self._exact_rays = PlainRays(scene, error_model) if error_model.rasterisation else None
+        frame = self.prepared.kernel.camera_frame(self.prepared.data)
+        numbers = iter(condensed([number for vector in frame for number in vector]))
+        self._frame = tuple(tuple(next(numbers) for _ in vector) for vector in frame)
+        self._image_radius = error_model.image_radius
+
+    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+        """As the protocol says."""
+        ball = self.prepared.arithmetic.functions["ball"]
+        if self._exact_rays is not None:
+            origin, direction = self._exact_rays.primary_ray(column, line)
+            return tuple(map(ball, origin)), tuple(map(ball, direction))
+        x, y = (ball(arb(center + 0.5, self._image_radius)) for center in (column, line))
+        origin, direction = self.prepared.kernel.primary_ray(self._frame, x, y)
+        return _condensed_ray(origin, direction)
+
+    def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
+        """As the protocol says."""
+        kernel, arithmetic = self.prepared.kernel, self.prepared.arithmetic
+        origin, direction, weight, *rest = ray
+        linked_weight = tuple(arithmetic.functions["ball"](channel) for channel in weight)
+        children: list[Ray] = []
+        local = kernel.trace_ray(self.prepared.data, (origin, direction, linked_weight, *rest), children)
+        enclose([*local, *(number for child in children for vector in child[:3] for number in vector)])
+        return _box(local), [(*_condensed_ray(child[0], child[1]), _box(child[2]), *child[3:]) for child in children]
+
+    def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
+        """As the protocol says."""
+        primitive, values = first_hit(self.prepared, origin, direction)
+        return primitive, tuple(enclosure(value) for value in values)
+
+
+def _exact_camera(scene: Scene, error_model: ErrorModel) -> PreparedScene | None:
+    """One whose rays are not rounded, for a rasteriser, which computes none: its places in the window are modelled."""
+    if error_model.rasterisation is None:
+        return None
+    return prepare(scene, ball_arithmetic(error_model.precision_bits + MARGIN_BITS, Decisions()))
+
+
+def store_indices(prepared: PreparedScene, bits: int | None) -> None:
+    """Put what a renderer stores for indices of refraction into the tables: rounded to so few bits, or as they are."""
+    if bits is None:
+        return
+    exact = prepare(prepared.scene, FLOAT).data.numbers
+    for table in (MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX):
+        first = prepared.data.integers[table]
+        for place in range(first, first + rows_of(prepared.data, table)):
+            mantissa, exponent = math.frexp(exact[place])
+            rounded = math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits)
+            prepared.data.numbers[place] = prepared.arithmetic.number(rounded)
+
+
+class RememberedHit:
+    """A kernel's nearest hit, which need not be found twice for a pixel's colour and for its first hit."""
+
+    def __init__(self, find: Callable[..., tuple[Any, int]], decisions: Decisions) -> None:
+        self.find = find
+        self.decisions = decisions
+        self.ray: tuple[Any, Any] = (None, None)
+        self.hit: tuple[Any, int] = (None, NOTHING)
+
+    def __call__(self, data: Any, origin: Any, direction: Any, left: int) -> tuple[Any, int]:
+        """That of the last camera ray, if it is asked for again and nothing was undecided."""
+        if origin is self.ray[0] and direction is self.ray[1]:
+            return self.hit
+        before = self.decisions.position
+        hit = self.find(data, origin, direction, left)
+        if left == NOTHING and self.decisions.position == before:
+            self.ray, self.hit = (origin, direction), hit
+        return hit
+
+
+def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
+    """What a ray meets first: its number, and seven numbers for distance, position and normal; none for nothing."""
+    kernel, data = prepared.kernel, prepared.data
+    distance, primitive = kernel.nearest_hit(data, origin, direction, NOTHING)
+    if primitive == NOTHING:
+        return NOTHING, ()
+    point = kernel.along(origin, direction, distance)
+    return primitive, (distance, *point, *kernel.surface_normal(data, primitive, point))
+
+
+def _overrides(error_model: ErrorModel) -> Overrides:
+    """What this renderer computes otherwise than the truth does."""
+    return {
+        **offset_overrides(error_model),
+        **triangle_test_overrides(error_model),
+        **triangle_point_overrides(error_model),
+        **rasterisation_overrides(error_model.rasterisation),
+    }
+
+
+def _constants(error_model: ErrorModel, scene: Scene) -> dict[str, Any]:
+    return {
+        **offset_constants(error_model),
+        **triangle_test_constants(),
+        **triangle_point_constants(error_model),
+        **rasterisation_constants(error_model.rasterisation, scene),
+    }
+
+
+def _condensed_ray(origin: Any, direction: Any) -> tuple[Any, Any]:
+    x, y, z, dx, dy, dz = condensed([*origin, *direction])
+    return (x, y, z), (dx, dy, dz)
+
+
+def _box(color: Any) -> Box:
+    red, green, blue = (enclosure(channel) for channel in color)
+    return red, green, blue

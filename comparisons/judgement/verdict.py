@@ -1,0 +1,122 @@
+"""The verdict on an image by one of three tests: exact values, means of camera rays, or sums of light paths."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from raytruth.comparisons.feasible_sets.feasible_set import UNUSED
+from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
+from raytruth.comparisons.judgement.exact_test import UNJUDGED, capped_in_words, judge_image, judgement_of, verdict_of
+from raytruth.comparisons.noise.light_path_means import compare_light_paths
+from raytruth.comparisons.noise.lobes import find_lobes
+from raytruth.comparisons.noise.mean_test import SIGNIFICANCE, StochasticOutcome, compare_means
+from raytruth.comparisons.noise.pixel_areas import area_means
+from raytruth.comparisons.noise.splat_bound import largest_splats
+from raytruth.comparisons.records.pixel_evidence import PixelEvidence, pixel_evidence
+from raytruth.comparisons.records.results import Judgement, StochasticTest, Verdict
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
+    from raytruth.comparisons.records.renderings import Image, Rays, Rendering
+    from raytruth.scenes.scene import Scene
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a scene's cells are judged by."""
+
+    scene: Scene
+    truth: NDArray[np.float64]
+    rays: Rays
+    feasible: FeasibleSet
+
+
+@dataclass(frozen=True)
+class Judged:
+    """What came of an image."""
+
+    judgement: Judgement
+    test: StochasticTest | None
+    verdict: Verdict
+    reason: str
+    distances: NDArray[np.float64]
+    """Shape (height, width, 3)."""
+    pixels: PixelEvidence
+
+
+def judge_exact(image: Image, evidence: Evidence) -> Judged:
+    """Each pixel of an image without random numbers against its feasible set."""
+    feasible = evidence.feasible
+    judgement, nearest = judge_image(image, evidence.truth, feasible)
+    pixels = pixel_evidence(feasible.low, feasible.high, nearest.places, feasible.merged)
+    return Judged(judgement, None, *verdict_of(judgement), nearest.distances, pixels)
+
+
+def judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
+    """The mean of many samples against the hull of each pixel's feasible set."""
+    assert rendering.image is not None
+    assert rendering.batch_means is not None
+    bound = radiance_bound(evidence.scene)
+    assert bound is not None, "comparability.py lets no stochastic scene through without a bound"
+    unjudged = evidence.feasible.outcomes == 0
+    # A sample is rounded as all numbers are; one part in 2^20 is far above a float32 rounding of the largest.
+    # In the dark every sample is 0, which any bound holds.
+    most = (bound.at_camera or 1.0) * (1 + 2.0**-20)
+    low, high = evidence.feasible.hull()
+    low = np.where(unjudged[..., np.newaxis], 0.0, np.clip(low, 0.0, most))
+    high = np.where(unjudged[..., np.newaxis], most, np.clip(high, 0.0, most))
+    lobes = find_lobes(evidence.scene)
+    first_hit_is_certain = (evidence.feasible.hit_primitives != UNUSED).sum(axis=2) == 1
+    is_random = ~(lobes.sees_directly() & first_hit_is_certain)
+    outcome = compare_means(low, high, rendering.batch_means, rendering.samples, most, lobes, is_random)
+    distances = _distances(outcome)
+    within_range = unjudged & (outcome.p_values >= SIGNIFICANCE).all(axis=2)
+    distances = np.where(within_range[..., np.newaxis], UNJUDGED, distances)
+    judgement = judgement_of(distances.max(axis=2), rendering.image, evidence.truth, evidence.feasible)
+    one_box = np.zeros(unjudged.shape, dtype=np.int64)
+    pixels = pixel_evidence(low[:, :, np.newaxis], high[:, :, np.newaxis], one_box, evidence.feasible.merged)
+    if unjudged.all():
+        return Judged(judgement, outcome.test, *verdict_of(judgement), distances, pixels)
+    aside = f"with {rendering.samples} samples a pixel{capped_in_words(judgement)}"
+    return Judged(judgement, outcome.test, *_verdict(outcome, aside), distances, pixels)
+
+
+def of_pixel_areas(evidence: Evidence) -> Evidence:
+    """The same of the means over the pixels' areas in place of the values at their centres."""
+    low, high = area_means(evidence.scene)
+    merged = np.zeros(low.shape[:2], dtype=bool)
+    one_outcome = replace(evidence.feasible, low=low[:, :, np.newaxis], high=high[:, :, np.newaxis], merged=merged)
+    return replace(evidence, truth=(low + high) / 2, feasible=one_outcome)
+
+
+def judge_light_paths(rendering: Rendering, areas: Evidence) -> Judged:
+    """What light paths add up to, against the pixels' area means; `areas` is evidence of these."""
+    assert rendering.image is not None
+    assert rendering.batch_means is not None
+    low, high = areas.feasible.low, areas.feasible.high
+    splats = largest_splats(areas.scene)
+    outcome = compare_light_paths(low[:, :, 0], high[:, :, 0], rendering.batch_means, rendering.samples, splats)
+    distances = _distances(outcome)
+    judgement = judgement_of(distances.max(axis=2), rendering.image, areas.truth, areas.feasible)
+    one_box = np.zeros(distances.shape[:2], dtype=np.int64)
+    pixels = pixel_evidence(low, high, one_box, areas.feasible.merged)
+    aside = f"with {rendering.samples} light paths"
+    return Judged(judgement, outcome.test, *_verdict(outcome, aside), distances, pixels)
+
+
+def _distances(outcome: StochasticOutcome) -> NDArray[np.float64]:
+    """From the interval: exponents of these probabilities grow with the square of the distance, so that this is one."""
+    with np.errstate(divide="ignore"):
+        distances: NDArray[np.float64] = np.sqrt(np.log(outcome.p_values) / np.log(SIGNIFICANCE))
+    return distances
+
+
+def _verdict(outcome: StochasticOutcome, aside: str) -> tuple[Verdict, str]:
+    probability = f"the least likely mean has p = {outcome.test.smallest_p_value:.2g} after correction"
+    verdict = Verdict.PASS if outcome.passes else Verdict.FAIL
+    return verdict, f"{probability}, against a significance of {SIGNIFICANCE:g}, {aside}"

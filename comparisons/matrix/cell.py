@@ -1,0 +1,184 @@
+"""One cell of the matrix: render, judge, and write the cell whole or not at all."""
+
+from __future__ import annotations
+
+import shlex
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from raytruth.comparisons.judgement.exact_test import judge_first_hits, largest_error, verdict_of_first_hits
+from raytruth.comparisons.judgement.verdict import judge_exact, judge_light_paths, judge_noisy, of_pixel_areas
+from raytruth.comparisons.records.image_files import write_image
+from raytruth.comparisons.records.pixel_evidence import write_pixel_evidence
+from raytruth.comparisons.records.renderings import RendererError
+from raytruth.comparisons.records.results import Cell, Images, Verdict
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from raytruth.comparisons.judgement.verdict import Evidence
+    from raytruth.comparisons.records.renderings import Rendering
+    from raytruth.comparisons.renderers.protocol import Integrator, Renderer
+
+CELL_FILE = "cell.json"
+TRUTH_FILE = "truth.exr"
+AREA_MEANS_FILE = "area-means.exr"
+LOG_FILE = "log.txt"
+UNFINISHED_CELL = ".unfinished-"
+"""What the name of a cell's folder begins with until it is whole."""
+
+
+@dataclass(frozen=True)
+class CellPlace:
+    """Which cell, and what identifies everything it depends on."""
+
+    scene: str
+    renderer: str
+    integrator: str
+    key: str
+    source: str
+    """What names the scene on the command line: its library name or its path."""
+    version: str | None = None
+    """The renderer's; asking for it may take a trial render."""
+
+    @property
+    def folder(self) -> str:
+        """Relative to the results directory."""
+        return f"cells/{self.scene}/{self.renderer}-{self.integrator}"
+
+    @property
+    def command(self) -> str:
+        """The command that repeats the cell."""
+        return f"raytruth run {shlex.quote(self.source)} --renderer {self.renderer} --fresh"
+
+
+def run_cell(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence, directory: Path) -> Cell:
+    """Render and judge in a temporary folder, which then takes the cell's place; a failed render is an error cell."""
+    target = directory / place.folder
+    target.parent.mkdir(parents=True, exist_ok=True)
+    folder = Path(mkdtemp(prefix=f"{UNFINISHED_CELL}{target.name}-", dir=target.parent))
+    try:
+        cell = _judged(place, renderer, depth, evidence, folder)
+        for scratch in (*folder.glob("*.npz"), *folder.glob("job.json")):
+            scratch.unlink()
+        (folder / CELL_FILE).write_text(cell.model_dump_json(indent=1), encoding="utf-8")
+        folder.chmod(0o755)
+        shutil.rmtree(target, ignore_errors=True)
+        folder.replace(target)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+    return cell
+
+
+def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence, folder: Path) -> Cell:
+    try:
+        rendering = renderer.render(evidence.scene, place.integrator, depth, evidence.rays, folder)
+        _check_sizes(rendering, integrator_of(renderer, place.integrator).gives, evidence.truth)
+    except RendererError as error:
+        log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
+        return Cell(**_names(place), version=place.version, verdict=Verdict.ERROR, reason=str(error), log=log)
+    hits = None if rendering.first_hits is None else judge_first_hits(rendering.first_hits, evidence.feasible)
+    log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
+    if rendering.image is None:
+        assert hits is not None, "checked with the sizes"
+        verdict, reason = verdict_of_first_hits(hits)
+        return Cell(
+            **_names(place),
+            verdict=verdict,
+            reason=reason,
+            seconds=rendering.seconds,
+            version=place.version,
+            first_hits=hits,
+            log=log,
+        )
+    truth = f"cells/{place.scene}/{TRUTH_FILE}"
+    if integrator_of(renderer, place.integrator).follows == "light paths":
+        evidence = of_pixel_areas(evidence)
+        truth = f"{place.folder}/{AREA_MEANS_FILE}"
+        write_image(folder / AREA_MEANS_FILE, evidence.truth.astype(np.float32))
+        judged = judge_light_paths(rendering, evidence)
+    elif rendering.batch_means is not None:
+        judged = judge_noisy(rendering, evidence)
+    else:
+        judged = judge_exact(rendering.image, evidence)
+    verdict, reason = judged.verdict, judged.reason
+    if hits is not None and hits.failing:
+        verdict = Verdict.FAIL
+        reason = f"{hits.failing} first hits lie outside their feasible sets; {reason}"
+    write_image(folder / "render.exr", rendering.image.astype(np.float32))
+    write_image(folder / "tolerances.exr", _in_float32(judged.distances))
+    write_pixel_evidence(folder / "feasible.exr", judged.pixels)
+    return Cell(
+        **_names(place),
+        verdict=verdict,
+        reason=reason,
+        largest_error=largest_error(rendering.image, evidence.truth, evidence.feasible),
+        seconds=rendering.seconds,
+        version=place.version,
+        judgement=judged.judgement,
+        stochastic=judged.test,
+        first_hits=hits,
+        images=Images(
+            render=f"{place.folder}/render.exr",
+            truth=truth,
+            tolerances=f"{place.folder}/tolerances.exr",
+            feasible=f"{place.folder}/feasible.exr",
+            variance=_write_variance(rendering, place, folder),
+        ),
+        log=log,
+    )
+
+
+def _names(place: CellPlace) -> dict[str, str]:
+    return {
+        "scene": place.scene,
+        "renderer": place.renderer,
+        "integrator": place.integrator,
+        "command": place.command,
+        "source": place.source,
+        "key": place.key,
+    }
+
+
+def integrator_of(renderer: Renderer, name: str) -> Integrator:
+    """The renderer's integrator of that name."""
+    return next(known for known in renderer.integrators if known.name == name)
+
+
+def _check_sizes(rendering: Rendering, gives: str, truth: NDArray[np.float64]) -> None:
+    """Raises RendererError where what the integrator gives is missing, or of another size than the truth."""
+    if (rendering.first_hits if gives == "first hits" else rendering.image) is None:
+        raise RendererError(f"expected {gives}, got nothing")
+    if rendering.image is not None and rendering.image.shape != truth.shape:
+        raise RendererError(f"expected an image of shape {truth.shape}, got {rendering.image.shape}")
+    if rendering.image is not None and np.isnan(rendering.image).any():
+        y, x = np.argwhere(np.isnan(rendering.image).any(axis=2))[0]
+        count = int(np.isnan(rendering.image).any(axis=2).sum())
+        raise RendererError(f"{count} pixels of its image are not a number, the first of them ({x}, {y})")
+    if rendering.first_hits is not None:
+        for name, values in vars(rendering.first_hits).items():
+            expected = truth.shape if name in {"position", "normal"} else truth.shape[:2]
+            if values.shape != expected:
+                raise RendererError(f"expected {name} of first hits of shape {expected}, got {values.shape}")
+
+
+def _in_float32(distances: NDArray[np.float64]) -> NDArray[np.float32]:
+    """The distances, those above 1 still above it."""
+    with np.errstate(over="ignore"):  # infinitely far, as far as a reader can tell
+        rounded = distances.astype(np.float32)
+    just_outside = np.nextafter(np.float32(1), np.float32(2))
+    return np.where(distances > 1, np.maximum(rounded, just_outside), rounded)
+
+
+def _write_variance(rendering: Rendering, place: CellPlace, folder: Path) -> str | None:
+    """The variance of the mean, estimated from the batches."""
+    if rendering.batch_means is None:
+        return None
+    variance = rendering.batch_means.var(axis=0, ddof=1, dtype=np.float64) / len(rendering.batch_means)
+    write_image(folder / "variance.exr", variance.astype(np.float32))
+    return f"{place.folder}/variance.exr"

@@ -1,0 +1,189 @@
+"""The results directory: assembling a run's results, with those of earlier partial runs."""
+
+from __future__ import annotations
+
+import datetime
+import errno
+import fcntl
+import os
+import platform
+import shutil
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from importlib.metadata import version
+from typing import TYPE_CHECKING, TypeVar
+
+from raytruth.comparisons.matrix.cell import CELL_FILE, UNFINISHED_CELL
+from raytruth.comparisons.measures.metrics import compute_metrics_batch
+from raytruth.comparisons.records.image_files import ImageError, read_image
+from raytruth.comparisons.records.results import (
+    RESULTS_FILE,
+    SCHEMA_VERSION,
+    Cell,
+    RendererRecord,
+    Results,
+    SceneRecord,
+)
+from raytruth.comparisons.renderers.catalogue import family_of
+from raytruth.scenes.light_paths import whitted_class
+from raytruth.scenes.requirements import required_features
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+    from pathlib import Path
+
+    from raytruth.comparisons.renderers.protocol import Renderer
+    from raytruth.scenes.scene import Scene
+
+
+UNFINISHED = (f"cells/*/{UNFINISHED_CELL}*", f".{RESULTS_FILE}.*", ".report-*")
+"""What is renamed when it is whole: folders of cells, results.json, the report."""
+
+Named = TypeVar("Named", SceneRecord, RendererRecord)
+
+
+@contextmanager
+def only_run_in(directory: Path) -> Iterator[None]:
+    """Make the directory and keep other runs from writing there; what a killed one left unfinished is removed.
+
+    Raises OSError where another run is writing.
+    """
+    directory.mkdir(parents=True, exist_ok=True)
+    handle = os.open(directory, os.O_RDONLY)
+    try:
+        _lock(handle, directory)
+        for pattern in UNFINISHED:
+            for path in directory.glob(pattern):
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+        yield
+    finally:
+        os.close(handle)
+
+
+def _lock(handle: int, directory: Path) -> None:
+    """The lock ends with this process, however that ends."""
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        told = "another run is writing there; wait for it, or give another --out"
+        raise OSError(errno.EBUSY, told, str(directory)) from error
+
+
+def write_results(
+    directory: Path,
+    command: str,
+    scenes: Sequence[Scene],
+    renderers: Sequence[tuple[Renderer, str | None]],
+    cells: Sequence[Cell],
+) -> Results:
+    """Write results.json: these cells, and those of earlier runs into this directory that these do not replace.
+
+    Beside each renderer stands its version, None where it cannot run here.
+    Where that changes nothing, the file stays as it is, with the date of the results that it holds.
+    """
+    earlier = _earlier(directory)
+    place = {cell_place(cell): number for number, cell in enumerate(cells)}
+    kept = [cell for cell in earlier.cells if cell_place(cell) not in place] if earlier else []
+    results = Results(
+        raytruth_version=version("raytruth"),
+        created=datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds"),
+        command=command,
+        machine=_machine(),
+        scenes=_by_name((*(earlier.scenes if earlier else ()), *(_scene_record(scene) for scene in scenes))),
+        renderers=_by_name((*(earlier.renderers if earlier else ()), *(_renderer_record(*pair) for pair in renderers))),
+        cells=tuple(sorted((*kept, *cells), key=cell_place)),
+    )
+    if earlier is not None and results.model_copy(update={"created": earlier.created}) == earlier:
+        return earlier
+    write_whole(directory / RESULTS_FILE, results.model_dump_json(indent=1))
+    return results
+
+
+def cell_place(cell: Cell) -> tuple[str, str, str]:
+    """What tells cells apart."""
+    return cell.scene, cell.renderer, cell.integrator
+
+
+def with_metrics(directory: Path, cells: Sequence[Cell]) -> list[Cell]:
+    """The cells with their global metrics, computed in two batches side by side where they are missing."""
+    lacking = [cell for cell in cells if cell.images is not None and cell.metrics is None]
+    with ThreadPoolExecutor(2) as pool:  # each batch waits for a process of its own
+        measured = list(pool.map(lambda part: _measured(directory, part), (lacking[::2], lacking[1::2])))
+    by_place = {cell_place(cell): cell for part in measured for cell in part}
+    return [by_place.get(cell_place(cell), cell) for cell in cells]
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a file whole or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    scratch = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        scratch.write_text(text, encoding="utf-8")
+        scratch.replace(path)
+    finally:
+        scratch.unlink(missing_ok=True)
+
+
+def _measured(directory: Path, cells: Iterable[Cell]) -> list[Cell]:
+    readable: list[Cell] = []
+    pairs = []
+    for cell in cells:
+        assert cell.images is not None, "only cells with images are measured"
+        try:
+            pair = (read_image(directory / cell.images.render), read_image(directory / cell.images.truth))
+        except ImageError:
+            continue  # the report says that the image is missing
+        readable.append(cell)
+        pairs.append(pair)
+    measured = []
+    for cell, metrics in zip(readable, compute_metrics_batch(pairs), strict=True):
+        complete = cell.model_copy(update={"metrics": metrics})
+        folder = f"cells/{cell.scene}/{cell.renderer}-{cell.integrator}"
+        write_whole(directory / folder / CELL_FILE, complete.model_dump_json(indent=1))
+        measured.append(complete)
+    return measured
+
+
+def _earlier(directory: Path) -> Results | None:
+    """What the directory holds already; nothing if that is of another version of the format."""
+    try:
+        results = Results.model_validate_json((directory / RESULTS_FILE).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return results if results.schema_version == SCHEMA_VERSION else None
+
+
+def _by_name(records: Iterable[Named]) -> tuple[Named, ...]:
+    """The last record of each name."""
+    return tuple({record.name: record for record in records}.values())
+
+
+def _scene_record(scene: Scene) -> SceneRecord:
+    return SceneRecord(
+        name=scene.name,
+        purpose=scene.purpose,
+        convention=scene.convention,
+        width=scene.camera.width,
+        height=scene.camera.height,
+        features=tuple(sorted(required_features(scene))),
+        light_paths=whitted_class(scene),
+    )
+
+
+def _renderer_record(renderer: Renderer, its_version: str | None) -> RendererRecord:
+    return RendererRecord(
+        name=renderer.name,
+        version=its_version,
+        install=renderer.install,
+        error_model=renderer.error_model.description,
+        integrators={integrator.name: integrator.light_paths.format(depth="n") for integrator in renderer.integrators},
+        family=family_of(renderer.name),
+    )
+
+
+def _machine() -> dict[str, str]:
+    return {
+        "system": platform.platform(),
+        "python": platform.python_version(),
+        "processors": str(os.cpu_count()),
+    }

@@ -1,0 +1,62 @@
+"""The mean of the radiance over the area of each pixel: what a renderer gives that sends light to the whole pixel."""
+
+from __future__ import annotations
+
+from math import isqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from raytruth.reference_tracer.rendering import render
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from raytruth.scenes.scene import Scene
+
+    Array = NDArray[np.float64]
+
+# Points of an image, which take some 500 MB for a while: 24 along each side of a pixel of the library's scenes. On an
+# edge with n points a side the interval is about 2/n of the step across it wide. With 24, the interval of an image's
+# mean is within 0.3 to 1.7 % of it.
+POINTS = 1 << 22
+FEWEST_POINTS_A_SIDE = 2
+
+
+def area_means(scene: Scene) -> tuple[Array, Array]:
+    """The least and the largest that each pixel's area mean may be; both of shape (height, width, 3), linear RGB.
+
+    The radiance is computed at a regular grid of points. Each stands for its cell, with the least and the largest of
+    its eight neighbours. So an edge between two points may lie anywhere between them, and half a cell more is left for
+    a renderer whose image is displaced by as much, as where rays start off a surface. It assumes that nothing is
+    smaller than a cell.
+    """
+    pixels = scene.camera.width * scene.camera.height
+    grid = max(FEWEST_POINTS_A_SIDE, isqrt(POINTS // pixels))
+    points = render(enlarged(scene, grid))
+    low, high = (_pixel_means(_over_neighbours(points, choose), grid) for choose in (np.minimum, np.maximum))
+    return low, high
+
+
+def enlarged(scene: Scene, factor: int) -> Scene:
+    """The same view with so many times the pixels along each side."""
+    camera = scene.camera
+    size = {"width": camera.width * factor, "height": camera.height * factor}
+    return scene.model_copy(update={"camera": camera.model_copy(update=size)})
+
+
+def _over_neighbours(points: Array, choose: np.ufunc) -> Array:
+    """The least or the largest value of each point and its neighbours, along one side and then along the other."""
+    for axis in (0, 1):
+        end = points.shape[axis]
+        before = np.take(points, np.maximum(np.arange(end) - 1, 0), axis)
+        after = np.take(points, np.minimum(np.arange(end) + 1, end - 1), axis)
+        points = choose(choose(before, after), points)
+    return points
+
+
+def _pixel_means(points: Array, grid: int) -> Array:
+    height, width, channels = points.shape
+    cells = points.reshape(height // grid, grid, width // grid, grid, channels)
+    means: Array = cells.mean(axis=(1, 3))
+    return means

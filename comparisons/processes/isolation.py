@@ -1,0 +1,190 @@
+"""Running a program that may crash, hang, or fill memory and disk, without harm to us.
+
+The limits hold for the program and for whatever it starts. A guard (isolation_guard.py) ends all its descendants,
+also those in sessions of their own, and when this process is killed, too.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import selectors
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import IO
+
+from raytruth.comparisons.records.renderings import RendererError
+
+LOG_FILE = "log.txt"
+# Renderers print some kilobytes; this leaves room for a verbose one and is nothing to a disk.
+LOG_BYTES = 1 << 20
+# The largest file that a right answer needs: 8192² pixels of float32 RGB are 0.8 GB.
+FILE_BYTES = 1 << 30
+_CHUNK_BYTES = 1 << 16
+# The end of the log that an error message quotes: enough for the last line of a traceback with its message.
+_QUOTED_LINES = 3
+_QUOTED_CHARACTERS = 400
+
+# As long as a guard may take to end what it guards: it kills, and the kernel needs a moment to take memory back.
+_STOP_SECONDS = 10.0
+
+_GUARD = [sys.executable, "-I", "-S", str(Path(__file__).with_name("isolation_guard.py"))]
+_SCRATCH = "scratch"
+
+
+def run_isolated(
+    command: list[str],
+    folder: Path,
+    *,
+    seconds: float,
+    memory_bytes: int,
+    output_bytes: int = LOG_BYTES,
+    file_bytes: int = FILE_BYTES,
+) -> None:
+    """Run a command in a session of its own, in `folder`, with its standard output and error in `folder/log.txt`.
+
+    `seconds` of wall-clock time, `memory_bytes` of address space per process, `output_bytes` of log, and `file_bytes`
+    per file that it writes. Its standard input is empty, its temporary files are removed. When this returns or raises,
+    the process and all its descendants are gone. Raises RendererError, in one sentence with the end of the log, unless
+    it ends with exit status 0 within the limits and leaves no process behind; then what it wrote, but for the log, is
+    removed.
+    """
+    log_path = folder / LOG_FILE
+    before = set(folder.iterdir())
+    scratch = folder / _SCRATCH
+    scratch.mkdir()
+    try:
+        with log_path.open("wb") as log:
+            failure = _run_guarded(command, folder, log, seconds, output_bytes, [memory_bytes, file_bytes])
+        if failure:
+            for path in set(folder.iterdir()) - before - {log_path, scratch}:
+                _remove(path)
+            raise RendererError(f"{Path(command[0]).name} {failure}; {_end_of_log(log_path)}")
+    finally:
+        _remove(scratch)
+
+
+def _run_guarded(
+    command: list[str], folder: Path, log: IO[bytes], seconds: float, output_bytes: int, limits: list[int]
+) -> str | None:
+    """What went wrong, in a clause; None if nothing did."""
+    reader, writer = os.pipe()
+    with os.fdopen(reader, "rb") as status:
+        try:
+            guard = subprocess.Popen(
+                [*_GUARD, *(str(number) for number in (writer, *limits)), *command],
+                cwd=folder,
+                env={**os.environ, "TMPDIR": str((folder / _SCRATCH).resolve())},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                pass_fds=[writer],
+                start_new_session=True,
+            )
+        finally:
+            os.close(writer)
+        assert guard.stdout is not None  # it was asked for above
+        with guard.stdout as output:
+            try:
+                limit_hit = _copy_until_exit(guard.pid, output, log, seconds, output_bytes)
+            finally:
+                _end(guard)
+        return limit_hit or _describe_status(status.read().decode())
+
+
+def _end(guard: subprocess.Popen[bytes]) -> None:
+    """Have the guard end all that it guards, and see to it that it ends itself; nothing to do where it has ended."""
+    try:
+        # It is not reaped yet, so that neither its number nor its group's can have passed to others.
+        guard.send_signal(signal.SIGCONT)
+        guard.terminate()
+        guard.wait(_STOP_SECONDS)
+    except subprocess.TimeoutExpired:
+        pass
+    finally:
+        with contextlib.suppress(ProcessLookupError):  # the group is empty
+            os.killpg(guard.pid, signal.SIGKILL)
+        guard.wait()
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
+
+
+def _copy_until_exit(pid: int, output: IO[bytes], log: IO[bytes], seconds: float, output_bytes: int) -> str | None:
+    """Copy the output to the log until the process ends; the limit that it hit instead, or None."""
+    deadline = time.monotonic() + seconds
+    room = output_bytes
+    os.set_blocking(output.fileno(), False)
+    exit_notice = os.pidfd_open(pid)
+    try:
+        with selectors.DefaultSelector() as selector:
+            selector.register(output, selectors.EVENT_READ)
+            selector.register(exit_notice, selectors.EVENT_READ)
+            ended = False
+            while not ended:
+                ready = {key.fd for key, _ in selector.select(max(0.0, deadline - time.monotonic()))}
+                # Looked at before the pipe is drained: what a process wrote before it ended is in the pipe by then.
+                ended = exit_notice in ready
+                while chunk := _read_available(output):
+                    log.write(chunk[:room])
+                    room -= len(chunk)
+                    if room < 0:
+                        return f"printed more than {output_bytes} bytes"
+                    if time.monotonic() >= deadline:
+                        break
+                if chunk == b"" and output.fileno() in ready and not ended:
+                    selector.unregister(output)  # closed by a process that goes on; only its end is awaited now
+                if not ended and time.monotonic() >= deadline:
+                    return f"did not end within its time limit of {seconds:g} s"
+    finally:
+        os.close(exit_notice)
+    return None
+
+
+def _read_available(output: IO[bytes]) -> bytes | None:
+    """What can be read at once: None where nothing waits, empty at the end of the output."""
+    try:
+        return os.read(output.fileno(), _CHUNK_BYTES)
+    except BlockingIOError:
+        return None
+
+
+def _describe_status(status: str) -> str | None:
+    """What a guard's words mean, as a clause; None if all went well."""
+    if not status:
+        return "ended the process that guards it"
+    returncode, left = (int(number) for number in status.split())
+    if returncode > 0:
+        return f"ended with exit status {returncode}"
+    if returncode < 0:
+        return f"was ended by signal {_signal_name(-returncode)}"
+    if left:
+        return f"left {left} {'process' if left == 1 else 'processes'} behind"
+    return None
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:  # real-time signals have numbers only
+        return str(number)
+
+
+def _end_of_log(path: Path) -> str:
+    with path.open("rb") as log:
+        log.seek(0, os.SEEK_END)
+        log.seek(max(0, log.tell() - _CHUNK_BYTES))
+        text = log.read().decode(errors="replace")
+    printable = ("".join(c if c.isprintable() else " " for c in line).strip() for line in text.splitlines())
+    lines = [line for line in printable if line][-_QUOTED_LINES:]
+    if not lines:
+        return "it printed nothing"
+    return f"its log ends: {' / '.join(lines)[-_QUOTED_CHARACTERS:]}"

@@ -1,0 +1,115 @@
+"""Linear float images as OpenEXR files, read and written by OpenImageIO."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+import numpy as np
+import OpenImageIO
+
+from raytruth.scenes.camera import LARGEST_SIDE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+CHANNEL_NAMES = {1: ("Y",), 3: ("R", "G", "B")}
+"""What OpenEXR calls the channels of a grey and of a colour image (Technical Introduction to OpenEXR, 2006)."""
+
+
+class ImageError(Exception):
+    """A file that is not an image we can use, or cannot be written; the message is one sentence."""
+
+
+def write_image(path: Path, image: NDArray[np.float32]) -> None:
+    """Write linear float32 pixels of shape (height, width) or (height, width, 3) to an `.exr` file.
+
+    The file appears whole or not at all. Raises ImageError if it cannot be written, ValueError for another shape or
+    type of array.
+    """
+    channels = 1 if image.ndim == 2 else image.shape[-1]
+    if image.ndim not in {2, 3} or channels not in CHANNEL_NAMES or image.size == 0 or image.dtype != np.float32:
+        raise ValueError(f"expected float32 of shape (h, w) or (h, w, 3), got {image.dtype} of shape {image.shape}")
+    write_channels(path, image.reshape(*image.shape[:2], channels), CHANNEL_NAMES[channels])
+
+
+def write_channels(path: Path, image: NDArray[np.float32], names: Sequence[str]) -> None:
+    """Write float32 channels of shape (height, width, channels) by their names.
+
+    The file appears whole or not at all. Raises ImageError if it cannot be written.
+    """
+    height, width, channels = image.shape
+    spec = OpenImageIO.ImageSpec(width, height, channels, "float")
+    spec.channelnames = tuple(names)
+    try:
+        with TemporaryDirectory(prefix=".", dir=path.parent) as folder:  # beside the file, so that a rename can move it
+            whole = Path(folder) / "image.exr"
+            buffer = OpenImageIO.ImageBuf(spec)
+            buffer.set_pixels(OpenImageIO.ROI.All, image)
+            if not buffer.write(str(whole)):
+                raise ImageError(f"{path}: the image could not be written ({_text(buffer.geterror)})")
+            whole.replace(path)
+    except OSError as error:
+        raise ImageError(f"{path}: the image could not be written ({error.strerror})") from error
+
+
+def read_image(path: Path) -> NDArray[np.float32]:
+    """The pixels of a one-part OpenEXR file: shape (height, width) for one channel, (height, width, 3) for R, G and B.
+
+    Raises ImageError for a file that is missing, damaged, too large, or has other channels. Pixels that are not finite
+    are left for the caller to judge.
+    """
+    one_or_three = "one channel or R, G and B"
+    pixels, names = read_channels(path, lambda names: len(names) == 1 or names == CHANNEL_NAMES[3], one_or_three)
+    return pixels[..., 0] if len(names) == 1 else pixels
+
+
+def read_channels(
+    path: Path, are_right: Callable[[tuple[str, ...]], bool], expected: str
+) -> tuple[NDArray[np.float32], tuple[str, ...]]:
+    """The pixels of a one-part OpenEXR file, shape (height, width, channels), and the names of its channels.
+
+    Raises ImageError for a file that is missing, damaged, too large, or whose channels' names are not right; `expected`
+    tells then which would be.
+    """
+    if not path.is_file():
+        raise ImageError(f"{path}: there is no such image file")
+    source = OpenImageIO.ImageInput.open(str(path))
+    if source is None:
+        raise ImageError(f"{path}: expected an OpenEXR image, but it cannot be opened ({_text(OpenImageIO.geterror)})")
+    try:
+        names = _names_in_header(path, source)
+        if not are_right(names):
+            raise ImageError(f"{path}: expected {expected}, found {len(names)}: {', '.join(names)}")
+        pixels = source.read_image("float")
+        if pixels is None or source.has_error:
+            raise ImageError(f"{path}: the image is damaged ({_text(source.geterror)})")
+    except UnicodeDecodeError as error:  # OpenImageIO's strings come from the file as they are
+        raise ImageError(f"{path}: the image's header is damaged, a name in it is not UTF-8") from error
+    finally:
+        source.close()
+    return np.asarray(pixels, dtype=np.float32), names
+
+
+def _names_in_header(path: Path, source: OpenImageIO.ImageInput) -> tuple[str, ...]:
+    """Look at the header before any pixel is read, since a damaged one may ask for all the memory there is."""
+    if source.format_name() != "openexr":
+        raise ImageError(f"{path}: expected an OpenEXR image with linear values, found {source.format_name()}")
+    spec = source.spec()
+    if max(spec.width, spec.height) > LARGEST_SIDE:
+        raise ImageError(f"{path}: {spec.width}x{spec.height} pixels, expected at most {LARGEST_SIDE} a side")
+    display = (spec.full_x, spec.full_y, spec.full_width, spec.full_height)
+    if (spec.x, spec.y, spec.width, spec.height) != display:
+        raise ImageError(f"{path}: expected a data window equal to the display window (an image that is not cropped)")
+    return tuple(str(name) for name in spec.channelnames)
+
+
+def _text(message: object) -> str:
+    """OpenImageIO's account of its last error on one line; it may quote bytes of the file that are no text."""
+    try:
+        return " ".join(str(message()).split()) if callable(message) else ""
+    except UnicodeDecodeError:
+        return "its header is damaged"

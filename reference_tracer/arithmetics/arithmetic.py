@@ -1,0 +1,98 @@
+"""The number types the tracer runs in, and kernels: its source instantiated with one of them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from raytruth.reference_tracer.arithmetics.compilation import compiled_module, compiled_text
+from raytruth.reference_tracer.arithmetics.instantiation import COMPILED_ENTRY_POINTS, ENTRY_POINTS, kernel_source
+from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Mapping
+
+    from numpy.typing import NDArray
+
+Kernel = Any
+"""The functions of the tracer's source as attributes."""
+
+
+@dataclass(frozen=True)
+class Arithmetic:
+    """A number type: how to make its numbers, and the functions over them that the source takes from `math`."""
+
+    name: str
+    number: Callable[[float], Any]
+    """From a Python float, exactly or rounded to the type."""
+    functions: Mapping[str, Any]
+    """Replace what the source imports from `math` or defines itself, by name."""
+    compiled: bool = False
+    decided_comparisons: bool = False
+    """For balls: comparisons are calls, and forms that only rounding calls for are left out."""
+    rounded_operations: bool = False
+    """Each result of an operation is rounded: by the function `rounded`, or by the factor `roundoff_factor`."""
+
+    def numbers(self, values: NDArray[np.float64]) -> Any:
+        """One-dimensional values as numbers of this type: an array for compiled code, else a list, which is quicker."""
+        if self.compiled:
+            return np.ascontiguousarray(values, dtype=type(self.number(0.0)))
+        return [self.number(value) for value in values.tolist()]
+
+    def integers(self, values: NDArray[np.int64]) -> Any:
+        """As `numbers`, for integers."""
+        return values if self.compiled else values.tolist()
+
+    def image(self, *shape: int) -> NDArray[Any]:
+        """An array of zeros for results of this number type."""
+        return np.zeros(shape, dtype=type(self.number(0.0)) if self.compiled else object)
+
+
+KERNEL_FILE = "<kernel"
+"""How the file names of kernels begin that are not compiled: they are in no file."""
+
+MATH = {name: getattr(math, name) for name in ("exp", "floor", "inf", "pi", "sqrt", "tan")}
+
+FLOAT = Arithmetic("float", float, MATH)
+FLOAT64 = Arithmetic("float64", np.float64, MATH, compiled=True)
+FLOAT32 = Arithmetic(
+    "float32",
+    np.float32,
+    {**MATH, "inf": np.float32(math.inf), "pi": np.float32(math.pi)},
+    compiled=True,
+)
+
+
+class Namespace:
+    """Functions as attributes, for kernels that are not compiled."""
+
+    def __init__(self, names: dict[str, Any]) -> None:
+        self.__dict__ = names
+
+
+def make_kernel(
+    arithmetic: Arithmetic,
+    features: Collection[str],
+    overrides: Mapping[str, Callable[..., object]] | None = None,
+) -> Kernel:
+    """The tracer for one number type, with these features and no others, and with some functions overridden."""
+    forms = PLAIN_FORMS if arithmetic.decided_comparisons else {}
+    source, literals = kernel_source(
+        features,
+        {**forms, **(overrides or {})},
+        entry_points=COMPILED_ENTRY_POINTS if arithmetic.compiled else ENTRY_POINTS,
+        decided_comparisons=arithmetic.decided_comparisons,
+        rounded_operations=arithmetic.rounded_operations,
+    )
+    if arithmetic.compiled:
+        number_type = np.dtype(type(arithmetic.number(0.0))).name
+        return compiled_module(compiled_text(source, literals, number_type))
+    names: dict[str, Any] = {"float": arithmetic.number}
+    names.update({name: arithmetic.number(value) for name, value in literals.items()})
+    names.update(MATH)
+    exec(compile(source, f"{KERNEL_FILE} in {arithmetic.name}>", "exec"), names)
+    names.update(arithmetic.functions)
+    return Namespace(names)

@@ -1,0 +1,90 @@
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import pytest
+
+from raytruth.comparisons.error_models.error_model import ErrorModel, Rasterisation, RayOffset
+from raytruth.comparisons.renderers.catalogue import all_renderers
+from raytruth.scenes.library import library_names, open_scene
+
+pytestmark = pytest.mark.clause("VER-1")
+
+CLAUSES = {
+    RayOffset(): "on the surface; the surface cannot be hit again there",
+    RayOffset(excludes_surface=False): "on the surface; the surface is tested as all others are",
+    RayOffset(
+        absolute=1e-4, excludes_surface=False
+    ): "0.0001 along the normal; the surface is tested as all others are",
+    RayOffset(relative=0.5): "0.5·max|p| along the normal; the surface cannot be hit again there",
+    RayOffset(0.25, 0.25): "0.25·(1 + max|p|) along the normal; the surface cannot be hit again there",
+    RayOffset(0.25, 0.5): "0.25 + 0.5·max|p| along the normal; the surface cannot be hit again there",
+    RayOffset(1e-3, along="direction", excludes_surface=False): (
+        "0.001 along the ray; the surface is tested as all others are"
+    ),
+    RayOffset(minimum_distance=1e-3, excludes_surface=False): (
+        "on the surface, hits nearer than 0.001 are ignored; the surface is tested as all others are"
+    ),
+}
+
+
+@pytest.mark.parametrize("offset", CLAUSES, ids=RayOffset.in_words)
+def test_a_ray_offset_is_told_in_words(offset: RayOffset) -> None:
+    assert offset.in_words() == CLAUSES[offset]
+
+
+def test_how_triangles_are_drawn_is_told_in_words() -> None:
+    model = ErrorModel("", 24, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=16, light_bits=22))
+    words = model.in_words()["drawing"]
+    assert "snapped to 2^-8 of a pixel" in words
+    assert "z-buffer of 16 bits" in words
+    assert "their light errs by at most 2^-22" in words
+
+
+def test_light_has_another_precision_only_where_triangles_are_drawn() -> None:
+    traced = ErrorModel("", 24)
+    assert traced.of_light() is traced
+    drawn = replace(traced, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=16, light_bits=22))
+    assert drawn.of_light() == replace(drawn, precision_bits=22)
+    assert drawn.of_light().of_light() == drawn.of_light()
+
+
+def test_offsets_that_no_renderer_can_have_are_refused() -> None:
+    with pytest.raises(ValueError, match="not negative"):
+        RayOffset(absolute=-1e-4)
+    with pytest.raises(ValueError, match="tested as all others"):
+        RayOffset(minimum_distance=1e-4)
+    with pytest.raises(ValueError, match="tested as all others"):
+        RayOffset(absolute=1e-4, along="direction")
+
+
+def test_a_shadow_tolerance_needs_surfaces_that_are_tested_and_is_no_less_than_the_least_distance() -> None:
+    tested = RayOffset(minimum_distance=1e-3, excludes_surface=False)
+    with pytest.raises(ValueError, match="shadow tolerance"):
+        ErrorModel("", 24, shadow_tolerance=1e-3)
+    with pytest.raises(ValueError, match="shadow tolerance"):
+        ErrorModel("", 24, tested, shadow_tolerance=1e-4)
+    words = ErrorModel("", 24, tested, shadow_tolerance=1e-2, index_bits=11).in_words()
+    assert words["what is near"] == "nearer than 0.01 from the surface or the light may throw a shadow or none"
+    assert words["indices of refraction"] == "stored with 11 bits"
+
+
+def test_an_image_radius_is_not_negative_and_told_in_words() -> None:
+    with pytest.raises(ValueError, match="image radius"):
+        ErrorModel("", 24, image_radius=-0.5)
+    assert ErrorModel("", 24).in_words()["camera rays go"] == "through the centres of pixels"
+    words = ErrorModel("", 24, image_radius=0.5).in_words()
+    assert words["camera rays go"] == "within 0.5 pixels of a pixel's centre, in x and in y"
+
+
+def test_the_words_have_a_clause_for_every_field() -> None:
+    assert len(ErrorModel("a renderer", 24).in_words()) == len(fields(ErrorModel))
+
+
+def test_a_renderer_declares_random_choices_if_and_only_if_some_scene_is_stochastic() -> None:
+    scenes = [open_scene(name) for name in library_names()]
+    for renderer in all_renderers().values():
+        is_random = any(
+            renderer.is_stochastic(scene, integrator.name) for scene in scenes for integrator in renderer.integrators
+        )
+        assert is_random == bool(renderer.error_model.random_choices), renderer.name

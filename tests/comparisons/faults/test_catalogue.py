@@ -1,0 +1,85 @@
+"""The catalogue is well formed: every fault stands in for a function that exists, and breaks a clause that exists."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from raytruth.comparisons.faults.catalogue import all_faults
+from raytruth.comparisons.faults.fault import Fault, Subject, fault, subjects_in
+from raytruth.comparisons.faults.variants import all_variants
+from raytruth.reference_tracer.arithmetics.instantiation import SOURCE_FILES
+
+pytestmark = pytest.mark.clause("PRJ-6")
+
+ROOT = Path(__file__).parents[3]
+CLAUSES = re.findall(r"^- \*\*([A-Z]+-\d+)\*\*", (ROOT / "docs" / "spec.md").read_text(encoding="utf-8"), re.MULTILINE)
+
+
+def arguments_of_the_tracer() -> dict[str, list[str]]:
+    """The names of the arguments of each function of the tracer's source."""
+    found = {}
+    for name in SOURCE_FILES:
+        for node in ast.parse((ROOT / "reference_tracer" / "source" / f"{name}.py").read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.FunctionDef):
+                found[node.name] = [argument.arg for argument in node.args.args]
+    return found
+
+
+ARGUMENTS = arguments_of_the_tracer()
+SUBJECTS: dict[str, Subject] = {**all_faults(), **all_variants()}
+
+
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_what_stands_in_for_a_function_has_its_arguments(name: str) -> None:
+    for function, body in SUBJECTS[name].overrides.items():
+        assert list(inspect.signature(body).parameters) == ARGUMENTS[function]
+
+
+def test_there_are_as_many_faults_and_variants_as_were_promised() -> None:
+    assert len(all_faults()) >= 80
+    assert len(all_variants()) >= 20
+    assert not all_faults().keys() & all_variants().keys()
+
+
+def test_every_clause_has_a_fault_and_no_fault_a_clause_that_does_not_exist() -> None:
+    broken = {fault.clause for fault in all_faults().values()}
+    assert broken == set(CLAUSES)
+
+
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_words_are_one_sentence_of_their_own(name: str) -> None:
+    words = SUBJECTS[name].words
+    assert words
+    assert Counter(subject.words for subject in SUBJECTS.values())[words] == 1
+    if name in all_faults():
+        assert words.endswith(".")
+        assert all_faults()[name].hint.endswith(("?", "."))
+
+
+def test_two_subjects_of_one_name_are_refused() -> None:
+    class Module:
+        one = Subject("same", "")
+        two = Subject("same", "")
+
+    with pytest.raises(ValueError, match="two subjects are called same"):
+        subjects_in((Module,))  # type: ignore[arg-type]
+
+
+def test_a_fault_is_its_function_and_what_is_said_about_it() -> None:
+    def wrong(a: object) -> object:
+        """It is
+        wrong.
+        """
+        return a
+
+    made = fault("CAM-1", "normalize", "Why?")(wrong)
+    assert isinstance(made, Fault)
+    assert (made.name, made.clause, made.words, made.hint) == ("wrong", "CAM-1", "It is wrong.", "Why?")
+    assert made.overrides == {"normalize": wrong}
+    assert "return a" in made.source()

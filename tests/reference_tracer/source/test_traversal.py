@@ -1,0 +1,92 @@
+from __future__ import annotations
+
+from math import inf
+
+import pytest
+
+from raytruth.reference_tracer.source import scene_data as layout
+from raytruth.reference_tracer.source.traversal import (
+    NOTHING,
+    distance_to_sphere,
+    distance_to_triangle,
+    is_occluded,
+    material_of,
+    nearest_hit,
+    surface_normal,
+)
+from tests.reference_tracer.kernels import scene_data
+
+AHEAD = (0.0, 0.0, -1.0)
+# Two spheres on the z axis, then two triangles across it: primitives 0 to 3.
+SCENE = scene_data(
+    {
+        layout.SPHERE_CENTER: [(0.0, 0.0, 0.0), (0.0, 0.0, -4.0)],
+        layout.SPHERE_RADIUS: [1.0, 1.0],
+        layout.SPHERE_MATERIAL: [7, 5],
+        layout.TRIANGLE_A: [(-9.0, -9.0, -2.0), (-9.0, -9.0, 3.0)],
+        layout.TRIANGLE_B: [(9.0, -9.0, -2.0), (0.0, 9.0, 3.0)],
+        layout.TRIANGLE_C: [(0.0, 9.0, -2.0), (9.0, -9.0, 3.0)],
+        layout.NODE_LOW: [(-9.0, -9.0, -2.0)],
+        layout.NODE_HIGH: [(9.0, 9.0, 3.0)],
+        layout.NODE_END: [1],
+        layout.NODE_FIRST_TRIANGLE: [0],
+        layout.NODE_TRIANGLES: [2],
+        layout.NODE_ORDER: [1, 0],
+        # Not behind the spheres' materials, so that none of these is taken for one of them and is right by chance.
+        layout.TRIANGLE_MATERIAL: [2, 3],
+    }
+)
+
+
+@pytest.mark.clause("TRAV-1")
+@pytest.mark.parametrize(
+    ("z", "left", "expected"),
+    [
+        (9.0, NOTHING, (6.0, 3)),
+        (3.0, 3, (2.0, 0)),  # a triangle that the ray has left is not met again
+        (1.0, 0, (2.0, 0)),  # of a sphere that the ray has left the other side remains
+        (-1.0, 0, (1.0, 2)),  # and nothing of it for a ray that leaves outward
+        (-2.0, 2, (1.0, 1)),
+        (-5.0, 1, (inf, NOTHING)),
+    ],
+)
+def test_the_nearest_primitive_is_hit(z: float, left: int, expected: tuple[float, int]) -> None:
+    assert nearest_hit(SCENE, (0.0, 0.0, z), AHEAD, left) == expected
+
+
+@pytest.mark.clause("SPH-4", "TRI-3")
+def test_what_was_left_is_left_out_by_its_number_not_by_a_distance() -> None:
+    # A point that rounding has moved by a thousandth: still nothing but the other side.
+    assert distance_to_sphere(SCENE, (0.0, 0.0, 1.001), AHEAD, 0, 0) == 2.002
+    assert distance_to_triangle(SCENE, (0.0, 0.0, 3.001), AHEAD, 1, 1) == inf
+    assert distance_to_triangle(SCENE, (0.0, 0.0, 3.5), AHEAD, 0, 1) == 0.5
+
+
+@pytest.mark.clause("SHAD-1")
+@pytest.mark.parametrize(("end", "occluded"), [(5.9, False), (6.0, False), (6.1, True), (inf, True)])
+def test_only_what_is_nearer_than_the_end_occludes(end: float, occluded: bool) -> None:
+    assert is_occluded(SCENE, (0.0, 0.0, 9.0), AHEAD, NOTHING, end) == occluded
+
+
+@pytest.mark.clause("TRAV-3")
+def test_of_two_at_the_same_distance_the_first_is_hit() -> None:
+    twins = scene_data(
+        {
+            layout.SPHERE_CENTER: [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)],
+            layout.SPHERE_RADIUS: [1.0, 1.0],
+            layout.SPHERE_MATERIAL: [0, 0],
+        }
+    )
+    assert nearest_hit(twins, (0.0, 0.0, 3.0), AHEAD, NOTHING) == (2.0, 0)
+
+
+@pytest.mark.clause("TRAV-2")
+@pytest.mark.parametrize(
+    ("primitive", "material", "normal"),
+    [(0, 7, (0.0, 0.0, 1.0)), (2, 2, (0.0, 0.0, 1.0)), (3, 3, (0.0, 0.0, -1.0))],
+)
+def test_materials_and_normals_belong_to_primitives(
+    primitive: int, material: int, normal: tuple[float, float, float]
+) -> None:
+    assert material_of(SCENE, primitive) == material
+    assert surface_normal(SCENE, primitive, (0.0, 0.0, 1.0)) == normal
