@@ -94,7 +94,7 @@ def write_html_report(directory: Path, *, unless_current: bool = False) -> Path:
 
 def _render_page(directory: Path, results: Results, pixels: Path, source: str) -> str:
     """The page as text; the values of the pixels are written into the folder `pixels`."""
-    loader = PackageLoader("reports")
+    loader = PackageLoader("raytruth.reports")
     environment = Environment(
         loader=loader,
         autoescape=True,

@@ -99,7 +99,7 @@ def shade(value: float | None) -> int:
 def write_kill_report(directory: Path) -> Path:
     """Write `faults.html` into a results directory that has `faults.json`, whole or not at all; returns its path."""
     results = read_kill_results(directory)
-    loader = PackageLoader("reports")
+    loader = PackageLoader("raytruth.reports")
     environment = Environment(
         loader=loader,
         autoescape=True,

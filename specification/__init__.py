@@ -1,0 +1,1 @@
+"""Which clauses there are, and which tests, scenes and faults hold each. It compares nothing."""

@@ -75,7 +75,7 @@ def test_each_clause_has_one_place_in_order() -> None:
 def test_whatever_refers_to_a_clause_or_chapter_refers_to_one_that_exists() -> None:
     clauses = all_clauses(ROOT)
     chapters = {clause.split("-")[0] for clause in clauses}
-    sources = [path.read_text(encoding="utf-8") for path in (ROOT / "reference_tracer").glob("*.py")]
+    sources = [path.read_text(encoding="utf-8") for path in (ROOT / "reference_tracer").rglob("*.py")]
     named_by_sources = {name for text in sources for name in re.findall(r"docs/spec\.md, ([A-Z]+)\b", text)}
     assert named_by_sources
     assert named_by_sources <= {clause.split("-")[0] for clause in clauses_of(ROOT, SPECIFICATION)}

@@ -18,7 +18,8 @@ from raytruth.scenes.library import LIBRARY_FOLDER, library_names
 pytestmark = pytest.mark.clause("PRJ-3")
 
 ROOT = Path(__file__).parent.parent
-PACKAGES = ("scenes", "reference_tracer", "comparisons", "reports", "raytruth")
+FOLDERS = ("scenes", "reference_tracer", "comparisons", "reports", "specification")
+"""What the package `raytruth` links to."""
 PROJECT_FILES = ("pyproject.toml", "README.md", "LICENSE")
 
 
@@ -26,8 +27,8 @@ PROJECT_FILES = ("pyproject.toml", "README.md", "LICENSE")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Built from a copy, since building leaves files beside the source."""
     tree = tmp_path_factory.mktemp("tree")
-    for package in PACKAGES:
-        shutil.copytree(ROOT / package, tree / package, ignore=shutil.ignore_patterns("__pycache__"))
+    for folder in (*FOLDERS, "raytruth"):
+        shutil.copytree(ROOT / folder, tree / folder, symlinks=True, ignore=shutil.ignore_patterns("__pycache__"))
     for name in PROJECT_FILES:
         shutil.copy(ROOT / name, tree)
     run([sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", "dist", "."], tree)
@@ -51,8 +52,8 @@ def raytruth(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def elsewhere(tmp_path: Path) -> Path:
-    """A working directory with folders that are called like our packages, and break whoever imports them."""
-    for package in PACKAGES:
+    """The folder of somebody whose own packages are called like our folders, and break whoever imports them."""
+    for package in (*FOLDERS, "tests", "benchmarks"):
         (tmp_path / package).mkdir()
         (tmp_path / package / "__init__.py").write_text("raise RuntimeError('imported from the working directory')")
     return tmp_path
@@ -70,19 +71,35 @@ def test_the_wheel_holds_the_packages_with_their_data_and_nothing_else(wheel: Pa
         names = {name for name in archive.namelist() if ".dist-info/" not in name}
         licenses = [name for name in archive.namelist() if name.endswith("LICENSE")]
     expected = {
-        path.relative_to(ROOT).as_posix()
-        for package in PACKAGES
-        for path in (ROOT / package).rglob("*")
+        f"raytruth/{path.relative_to(ROOT).as_posix()}".replace("raytruth/raytruth/", "raytruth/")
+        for folder in (*FOLDERS, "raytruth")
+        for path in (ROOT / folder).rglob("*")
         if path.is_file() and "__pycache__" not in path.parts
     }
     assert names == expected
     assert len(licenses) == 1
 
 
+def test_the_wheel_installs_one_package(wheel: Path) -> None:
+    with zipfile.ZipFile(wheel) as archive:
+        top = {name.split("/")[0] for name in archive.namelist()}
+    assert {name for name in top if not name.endswith(".dist-info")} == {"raytruth"}
+
+
+def test_the_links_of_the_package_lead_to_the_folders_beside_it() -> None:
+    links = {path.name: path.readlink() for path in (ROOT / "raytruth").iterdir() if path.is_symlink()}
+    assert links == {folder: Path("..") / folder for folder in FOLDERS}
+
+
 def test_the_installed_code_is_the_wheels_own(raytruth: Path, elsewhere: Path) -> None:
-    code = "import scenes, reports; print(raytruth.scenes.__file__, reports.__file__, sep='\\n')"
-    for file in run([str(raytruth.with_name("python")), "-P", "-c", code], elsewhere).splitlines():
+    code = "from raytruth import scenes, reports; print(scenes.__file__, reports.__file__, sep='\\n')"
+    for file in run([str(raytruth.with_name("python")), "-c", code], elsewhere).splitlines():
         assert Path(file).is_relative_to(raytruth.parent.parent)
+
+
+def test_the_package_runs_as_a_module_from_any_folder(raytruth: Path, elsewhere: Path) -> None:
+    listed = run([str(raytruth.with_name("python")), "-m", "raytruth", "scenes", "list"], elsewhere)
+    assert [name for name in library_names() if name not in listed] == []
 
 
 def test_the_scene_library_travels_along(raytruth: Path, elsewhere: Path) -> None:
@@ -97,6 +114,8 @@ def test_a_scene_is_rendered_from_any_folder(raytruth: Path, elsewhere: Path) ->
 
 
 def test_the_matrix_runs_and_reports_from_any_folder(raytruth: Path, elsewhere: Path) -> None:
-    run([str(raytruth), "run", "single-sphere", "--renderer", "closed_form", "--out", "results"], elsewhere)
+    # Among them renderers that run in workers of their own.
+    renderers = "closed_form,mitsuba,embree,raytruth"
+    run([str(raytruth), "run", "single-triangle", "--renderer", renderers, "--out", "results"], elsewhere)
     assert (elsewhere / "results" / "results.json").is_file()
     assert list((elsewhere / "results").glob("*.html"))

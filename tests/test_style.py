@@ -7,34 +7,18 @@ import io
 import re
 import subprocess
 import tokenize
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.rooms import FOLDERS, ROOT
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
 pytestmark = pytest.mark.clause("PRJ-1")
 
-ROOT = Path(__file__).parent.parent
-
-# What each folder may import of ours (README.md, "Folders"). A report reads records and images that others wrote, and
-# encodes colours as they do.
-RECORDS = {
-    "raytruth.comparisons.records.results",
-    "raytruth.comparisons.records.kill_results",
-    "raytruth.comparisons.records.image_files",
-    "raytruth.comparisons.records.pixel_evidence",
-    "raytruth.comparisons.records.renderings.Image",
-    "raytruth.comparisons.records.srgb",
-    "raytruth.reference_tracer.explanation_record",
-}
-MAY_IMPORT = {
-    "scenes": {"scenes"},
-    "reference_tracer": {"reference_tracer", "scenes"},
-    "comparisons": {"comparisons", "reference_tracer", "scenes"},
-    "reports": {"reports", *RECORDS},
-    "raytruth": {"raytruth", "reports", "comparisons", "reference_tracer", "scenes"},
-    "benchmarks": {"benchmarks", "raytruth", "reports", "comparisons", "reference_tracer", "scenes"},
-}
-SOURCES = [path for folder in MAY_IMPORT for path in sorted((ROOT / folder).rglob("*.py"))]
+SOURCES = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.py"))]
 TESTS = sorted((ROOT / "tests").rglob("*.py"))
 
 # A file that needs more has a second topic.
@@ -59,30 +43,9 @@ def relative(path: Path) -> str:
     return str(path.relative_to(ROOT))
 
 
-def imported_modules(path: Path) -> set[str]:
-    """Dotted names of the modules that a file imports, for type checking only, too."""
-    names: set[str] = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f"{path}: relative imports hide the direction"
-            assert node.module is not None
-            # `from comparisons import results` imports a module, `from comparisons.records.results import Cell` a name.
-            names |= {f"{node.module}.{alias.name}" for alias in node.names}
-    return names
-
-
 @pytest.mark.parametrize("path", [*SOURCES, *TESTS], ids=relative)
 def test_a_file_is_short_enough_for_one_topic(path: Path) -> None:
     assert len(path.read_text(encoding="utf-8").splitlines()) <= MOST_LINES
-
-
-@pytest.mark.parametrize("path", SOURCES, ids=relative)
-def test_imports_go_one_way(path: Path) -> None:
-    allowed = MAY_IMPORT[path.relative_to(ROOT).parts[0]]
-    ours = {name for name in imported_modules(path) if name.split(".")[0] in {*MAY_IMPORT, "tests"}}
-    assert {name for name in ours if not any(f"{name}.".startswith(f"{prefix}.") for prefix in allowed)} == set()
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=relative)
@@ -128,7 +91,7 @@ def test_no_file_names_a_package_registry_or_a_path_of_one_machine() -> None:
 
 def test_the_folders_of_tests_are_those_of_the_source() -> None:
     folders = {path.parent.relative_to(ROOT / "tests").parts[0] for path in TESTS if path.parent != ROOT / "tests"}
-    assert folders - TESTS_BY_PURPOSE == set(MAY_IMPORT)
+    assert folders - TESTS_BY_PURPOSE == set(FOLDERS)
 
 
 @pytest.mark.clause("PRJ-4")

@@ -1,0 +1,1 @@
+"""All that a pixel may be for a renderer that declares an error model."""

@@ -1,0 +1,1 @@
+"""Scenes × renderers: what is to be run, running it, and the results directory."""

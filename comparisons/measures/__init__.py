@@ -1,0 +1,1 @@
+"""Global measures of difference, and the gates of other suites: reported, never the verdict."""

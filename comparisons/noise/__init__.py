@@ -1,0 +1,1 @@
+"""Tests of renderers that draw random numbers."""

@@ -30,7 +30,7 @@ def compiled_text(source: str, literals: Mapping[str, float], number_type: str) 
         f'"""A kernel of the tracer in {number_type}; made from its source, do not edit."""',
         "from math import exp, floor, sqrt, tan",
         f"from numpy import int64, {number_type}, uint64",
-        "from raytruth.reference_tracer.arithmetics.compiled_stack import entry_point, height_of, inlined, new_stack, pop, push",
+        f"from {compiled_stack.__name__} import entry_point, height_of, inlined, new_stack, pop, push",
         f"float = {number_type}",
         f"inf = {number_type}('inf')",
         f"pi = {number_type}({math.pi!r})",

@@ -1,0 +1,1 @@
+"""The physics, written once: what is instantiated for each number type, one topic a file."""

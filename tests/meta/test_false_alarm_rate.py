@@ -7,7 +7,7 @@ from scipy.stats import binomtest
 
 from raytruth.comparisons.noise.light_path_means import compare_light_paths
 from raytruth.comparisons.noise.mean_test import SIGNIFICANCE, compare_means
-from tests.comparisons.lobe_images import draw_batch_means, interval_of, one_dielectric
+from tests.comparisons.noise.lobe_images import draw_batch_means, interval_of, one_dielectric
 from tests.meta.lobe_biases import GLASS_SCENES, bound_of, lobes_of
 
 pytestmark = pytest.mark.clause("VER-6")

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.comparisons.scene_files import LAMP, scene_file
+from tests.comparisons.matrix.scene_files import LAMP, scene_file
 
 pytestmark = pytest.mark.clause("RES-3", "RES-5")
 

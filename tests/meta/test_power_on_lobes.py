@@ -13,7 +13,7 @@ from raytruth.comparisons.records.renderings import Rays
 from raytruth.comparisons.renderers.mitsuba.adapter import BATCH_SAMPLES, BATCHES, mitsuba_scalar
 from raytruth.reference_tracer.rendering import primary_rays
 from raytruth.scenes.library import open_scene
-from tests.comparisons.lobe_images import draw_batch_means, truth_of
+from tests.comparisons.noise.lobe_images import draw_batch_means, truth_of
 from tests.meta.lobe_biases import BIASES, GLASS_SCENES, bound_of, lobes_of
 
 pytestmark = pytest.mark.clause("VER-7")

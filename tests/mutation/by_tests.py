@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import pytest
 
-from tests.mutation.mutants import ROOT
+from tests.rooms import FOLDERS, ROOT
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Sequence
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 # What the tests of physics import from others, and takes long.
 LIBRARIES = ("numba", "numpy", "flint", "mpmath", "hypothesis.extra.numpy", "pydantic", "scipy.optimize", "OpenImageIO")
-COPIED = ("benchmarks", "comparisons", "docs", "raytruth", "reference_tracer", "reports", "scenes", "specification", "tests")
+COPIED = (*FOLDERS, "docs", "tests")
 # Tests of the physics; those of arithmetics, of kernels and of what is kept would find little more.
 TEST_FOLDERS = ("reference_tracer", "properties", "extremes", "second_opinion")
 NOT_ABOUT_PHYSICS = {
@@ -72,7 +72,8 @@ def load_libraries() -> None:
 def copy_project(folder: Path) -> None:
     """All that the tests of physics need, into a new folder."""
     for name in COPIED:
-        shutil.copytree(ROOT / name, folder / name, symlinks=True, ignore=shutil.ignore_patterns("__pycache__", "*.png"))
+        ignored = shutil.ignore_patterns("__pycache__", "*.png")
+        shutil.copytree(ROOT / name, folder / name, symlinks=True, ignore=ignored)
     shutil.copy(ROOT / "pyproject.toml", folder)
 
 

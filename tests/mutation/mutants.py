@@ -7,7 +7,7 @@ import hashlib
 import re
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from cosmic_ray.ast import ast_nodes, get_ast
 from cosmic_ray.ast.ast_query import ASTQuery
@@ -15,8 +15,10 @@ from cosmic_ray.mutating import mutate_code
 from cosmic_ray.plugins import get_operator, operator_names
 
 from raytruth.reference_tracer.arithmetics.instantiation import SOURCE_FILES
+from tests.rooms import ROOT
 
-ROOT = Path(__file__).parents[2]
+if TYPE_CHECKING:
+    from pathlib import Path
 
 # What kernels are made of, without scene_data.py: that is the numbering of tables, which holds no physics.
 PHYSICS = tuple(file for file in SOURCE_FILES if file != "scene_data")

@@ -15,8 +15,8 @@ from raytruth.comparisons.matrix import matrix, waivers
 from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.records.results import RESULTS_FILE, Results
 from raytruth.comparisons.renderers import catalogue
-from tests.comparisons.pretending import Pretender, truthful
-from tests.comparisons.scene_files import scene_file
+from tests.comparisons.matrix.pretending import Pretender, truthful
+from tests.comparisons.matrix.scene_files import scene_file
 from tests.raytruth.running import document, refusal, run
 
 if TYPE_CHECKING:

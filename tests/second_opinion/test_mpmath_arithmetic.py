@@ -1,4 +1,4 @@
-"""The tracer's source in mpmath's numbers: a second opinion on Arb and reference_tracer/arithmetics/balls.py, not on formulas."""
+"""The tracer's source in mpmath's numbers: a second opinion on Arb and arithmetics/balls.py, not on formulas."""
 
 from __future__ import annotations
 

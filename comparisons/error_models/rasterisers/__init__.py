@@ -1,0 +1,1 @@
+"""What drawing with a z-buffer makes of a pixel, in terms of rays."""

@@ -1,0 +1,1 @@
+"""Blender's Cycles: what we ask of it, and the process that it runs in."""

@@ -1,7 +1,7 @@
 """The child process of the Cycles adapter: reads `job.json` in the current folder and writes `result.npz` there.
 
-Run as `python -P -m raytruth.comparisons.renderers.cycles.worker`. It alone imports Blender, which may end its process. Of each
-part of the light it leaves a file that Blender opens.
+Run as `python -P -m raytruth.comparisons.renderers.cycles.worker`. It alone imports Blender, which may end
+its process. Of each part of the light it leaves a file that Blender opens.
 """
 
 from __future__ import annotations

@@ -1,0 +1,1 @@
+"""Embree: what we ask of it, and the process that it runs in."""

@@ -1,6 +1,7 @@
 """The child process of the Mitsuba adapter: reads `job.json` in the current folder and writes `result.npz` there.
 
-Run as `python -P -m raytruth.comparisons.renderers.mitsuba.worker`. It alone imports Mitsuba, which may abort its process.
+Run as `python -P -m raytruth.comparisons.renderers.mitsuba.worker`. It alone imports Mitsuba, which may abort
+its process.
 """
 
 from __future__ import annotations

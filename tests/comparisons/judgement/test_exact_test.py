@@ -21,7 +21,7 @@ from raytruth.comparisons.judgement.exact_test import (
 )
 from raytruth.comparisons.records.renderings import FirstHits
 from raytruth.comparisons.records.results import FirstHitComparison, Verdict
-from tests.comparisons.boxes import boxes, hits
+from tests.comparisons.judgement.boxes import boxes, hits
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -20,7 +20,7 @@ from raytruth.comparisons.records.results import Cell, Verdict
 from raytruth.comparisons.renderers.protocol import Integrator
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.rendering import primary_rays, render
-from tests.comparisons.pretending import Pretender, truthful
+from tests.comparisons.matrix.pretending import Pretender, truthful
 from tests.reference_tracer.small_scenes import lamp, small_scene
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ import pytest
 from raytruth.comparisons.matrix.cell_key import APART, cell_key, files_used
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.reference_tracer.storage.source_digest import ROOT
-from tests.comparisons.pretending import Pretender
+from tests.comparisons.matrix.pretending import Pretender
 from tests.reference_tracer.small_scenes import small_scene
 
 if TYPE_CHECKING:

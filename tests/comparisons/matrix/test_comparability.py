@@ -11,7 +11,7 @@ from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.comparisons.renderers.protocol import Integrator
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.lights import shines
-from tests.comparisons.pretending import Pretender
+from tests.comparisons.matrix.pretending import Pretender
 from tests.scenes.exporter_scenes import BALL, GLASS, MIRROR, POINT, RED, build
 
 pytestmark = pytest.mark.clause("VER-8")

@@ -7,7 +7,7 @@ import pytest
 
 from raytruth.comparisons.matrix import kept_versions
 from raytruth.comparisons.matrix.kept_versions import kept_version, tried_version
-from tests.comparisons.pretending import Pretender
+from tests.comparisons.matrix.pretending import Pretender
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -20,8 +20,8 @@ from raytruth.comparisons.renderers.closed_form.adapter import ClosedFormRendere
 from raytruth.comparisons.renderers.protocol import Integrator
 from raytruth.reference_tracer.rendering import primary_rays
 from raytruth.scenes.light_paths import WHITTED
-from tests.comparisons.pretending import Pretender, truthful
-from tests.comparisons.scene_files import scene_file
+from tests.comparisons.matrix.pretending import Pretender, truthful
+from tests.comparisons.matrix.scene_files import scene_file
 
 if TYPE_CHECKING:
     from pathlib import Path

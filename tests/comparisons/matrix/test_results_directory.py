@@ -22,7 +22,7 @@ from raytruth.comparisons.records.results import (
     Verdict,
     WorstPixel,
 )
-from tests.comparisons.pretending import Pretender
+from tests.comparisons.matrix.pretending import Pretender
 from tests.reference_tracer.small_scenes import small_scene
 
 if TYPE_CHECKING:

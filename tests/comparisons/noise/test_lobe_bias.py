@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from raytruth.comparisons.noise import lobe_bias
 from raytruth.comparisons.noise.lobe_bias import BIAS_SIZES, LARGEST_STAKE, biased_images, lobe_bias_p_value
-from tests.comparisons.lobe_images import directly_seen, draw_batch_means, interval_of, one_dielectric, truth_of
+from tests.comparisons.noise.lobe_images import directly_seen, draw_batch_means, interval_of, one_dielectric, truth_of
 
 pytestmark = pytest.mark.clause("VER-6")
 

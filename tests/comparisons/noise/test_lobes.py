@@ -4,7 +4,7 @@ import pytest
 from raytruth.comparisons.noise.lobes import find_lobes
 from raytruth.reference_tracer.rendering import render
 from raytruth.scenes.library import open_scene
-from tests.comparisons.lobe_images import truth_of
+from tests.comparisons.noise.lobe_images import truth_of
 from tests.meta.lobe_biases import GLASS_SCENES, bound_of, lobes_of
 
 pytestmark = pytest.mark.clause("VER-6")

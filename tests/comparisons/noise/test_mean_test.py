@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from raytruth.comparisons.noise import mean_test as stochastic
 from raytruth.comparisons.noise.mean_test import SIGNIFICANCE, relative_entropy
-from tests.comparisons.lobe_images import directly_seen, draw_batch_means, interval_of, one_dielectric
+from tests.comparisons.noise.lobe_images import directly_seen, draw_batch_means, interval_of, one_dielectric
 
 pytestmark = pytest.mark.clause("VER-6")
 

@@ -20,7 +20,7 @@ from raytruth.comparisons.renderers.cycles.job import RESULT_FILE, Job
 from raytruth.comparisons.renderers.cycles.translation import job_of
 from raytruth.reference_tracer.rendering import render as render_reference
 from raytruth.scenes.library import open_scene
-from tests.comparisons.sphere_scenes import (
+from tests.comparisons.renderers.sphere_scenes import (
     HEIGHT,
     LIGHTS,
     LOOK_AT,

@@ -14,9 +14,8 @@ from raytruth.comparisons.records.renderings import Rays, RendererError, Renderi
 from raytruth.comparisons.renderers.mitsuba import adapter
 from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_llvm, mitsuba_scalar
 from raytruth.comparisons.renderers.mitsuba.job import RESULT_FILE
-from raytruth.comparisons.renderers.protocol import Renderer
 from raytruth.scenes.exporters import mitsuba as exporter
-from tests.comparisons.sphere_scenes import (
+from tests.comparisons.renderers.sphere_scenes import (
     HEIGHT,
     LIGHTS,
     LOOK_AT,
@@ -32,6 +31,7 @@ from tests.comparisons.sphere_scenes import (
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from raytruth.comparisons.renderers.protocol import Renderer
     from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("REN-4")

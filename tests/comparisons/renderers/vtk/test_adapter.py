@@ -18,7 +18,7 @@ from raytruth.reference_tracer.rendering import primary_rays
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.shapes import Sphere
 from tests.comparisons.drawn_triangles import ORTHOGRAPHIC, PERSPECTIVE
-from tests.comparisons.vtk_cells import cell_of, needs_vtk
+from tests.comparisons.renderers.vtk.vtk_cells import cell_of, needs_vtk
 from tests.scenes.exporter_scenes import BALL, GLASS, build
 
 if TYPE_CHECKING:

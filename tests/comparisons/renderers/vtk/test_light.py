@@ -38,7 +38,7 @@ from tests.comparisons.lit_triangles import (
     plates,
     radiometric_plates,
 )
-from tests.comparisons.vtk_cells import cell_of, evidence_of, needs_vtk
+from tests.comparisons.renderers.vtk.vtk_cells import cell_of, evidence_of, needs_vtk
 from tests.scenes.exporter_scenes import BALL, BOARD, GLASS, MIRROR, build
 
 if TYPE_CHECKING:

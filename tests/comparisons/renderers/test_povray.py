@@ -17,7 +17,7 @@ from raytruth.comparisons.renderers.povray import PovRay
 from raytruth.reference_tracer.rendering import render as render_reference
 from raytruth.scenes.exporters.povray import export_povray
 from raytruth.scenes.library import open_scene
-from tests.comparisons.sphere_scenes import build, point_light, primary_rays
+from tests.comparisons.renderers.sphere_scenes import build, point_light, primary_rays
 
 if TYPE_CHECKING:
     from pathlib import Path
