@@ -115,7 +115,7 @@ def test_what_is_wrong_is_killed_by_the_tests_and_leaves_the_copy_as_it_was(
     judged: Callable[[str, str], str], copy: Path, after: str, outcome: str
 ) -> None:
     assert judged(BODY, after) == outcome
-    assert (copy / "reference_tracer" / "reflection.py").read_text(encoding="utf-8") == text_of("reflection")
+    assert (copy / "reference_tracer" / "source" / "reflection.py").read_text(encoding="utf-8") == text_of("reflection")
     assert judged(BODY, BODY) == "survived"
 
 

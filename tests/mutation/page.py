@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tests.mutation.mutants import ROOT
+from tests.rooms import ROOT
 
 if TYPE_CHECKING:
     from tests.mutation.results import FileResults, Reasons, Results
