@@ -49,5 +49,4 @@ def resized(scene: Scene, size: str | None) -> Scene:
     """The scene with an image of the size in `WxH`, or as it is. Raises UsageError as `parse_size` does."""
     if size is None:
         return scene
-    width, height = parse_size(size)
-    return scene.model_copy(update={"camera": scene.camera.model_copy(update={"width": width, "height": height})})
+    return scene.resized(*parse_size(size))

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from pathlib import Path
-from tempfile import TemporaryDirectory
+from pathlib import Path  # noqa: TC003 - cyclopts reads annotations at run time
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
@@ -18,6 +17,7 @@ from raytruth.options import AsJson, open_scene, resized
 from raytruth.output import print_json, progress
 from raytruth.reference_tracer import rendering
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64
+from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.reports.pictures import tone_picture
 
 if TYPE_CHECKING:
@@ -105,9 +105,6 @@ def _write(path: Path, image: NDArray[Any]) -> None:
             raise UsageError(f"{error}.") from error
         return
     try:
-        with TemporaryDirectory(prefix=".", dir=path.parent) as folder:  # beside the file, so that a rename can move it
-            whole = Path(folder) / "image.png"
-            whole.write_bytes(tone_picture(image))
-            whole.replace(path)
+        write_whole(path, tone_picture(image))
     except OSError as error:
         raise UsageError(f"{path}: the image could not be written ({error.strerror}).") from error

@@ -9,7 +9,6 @@ import time
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -23,6 +22,7 @@ from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene, resized
 from raytruth.output import print_json
 from raytruth.reference_tracer.certified_image import certified_image, largest_value
+from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.scenes.library import library_names
 
 if TYPE_CHECKING:
@@ -116,10 +116,7 @@ def _certify(scene: Scene, out: Path, jobs: int, *, fresh: bool) -> dict[str, An
         for pixel, reason in sorted(image.undecided.items())
     ]
     text = json.dumps({**summary, "undecided_pixels": undecided}, indent=1, allow_nan=False)
-    with TemporaryDirectory(prefix=".", dir=out) as folder:  # beside the file, so that a rename can move it
-        whole = Path(folder) / "undecided.json"
-        whole.write_text(text, encoding="utf-8")
-        whole.replace(out / f"{scene.name}.json")
+    write_whole(out / f"{scene.name}.json", text)
     return summary
 
 

@@ -16,6 +16,7 @@ from urllib.parse import quote
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.reports import pictures, wording
 from raytruth.reports.agreement import Agreement, agreement_on, in_one_line
 from raytruth.reports.figures import Album, Figure, SharedPicture, cell_figures, data_uri
@@ -81,9 +82,7 @@ def write_html_report(directory: Path, *, unless_current: bool = False) -> Path:
     try:
         with TemporaryDirectory(prefix=".report-", dir=directory) as scratch:
             pixels = Path(scratch) / FOLDER
-            page = Path(scratch) / REPORT_FILE
-            page.write_text(_render_page(directory, results, pixels, source), encoding="utf-8")
-            page.replace(path)
+            write_whole(path, _render_page(directory, results, pixels, source))
             shutil.rmtree(directory / FOLDER, ignore_errors=True)
             if pixels.exists():
                 pixels.replace(directory / FOLDER)

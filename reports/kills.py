@@ -8,6 +8,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from rich.text import Text
 
 from raytruth.comparisons.records.kill_results import read_kill_results
+from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.reports import wording
 
 if TYPE_CHECKING:
@@ -118,7 +119,5 @@ def write_kill_report(directory: Path) -> Path:
         style=loader.get_source(environment, "report.css")[0],
     )
     path = directory / PAGE_FILE
-    unfinished = directory / f".{PAGE_FILE}"
-    unfinished.write_text(text, encoding="utf-8")
-    unfinished.replace(path)
+    write_whole(path, text)
     return path

@@ -32,3 +32,7 @@ class Scene(Part):
     lights: tuple[Light, ...] = ()
     materials: Annotated[dict[str, Material], Field(min_length=1)]
     objects: Annotated[tuple[Shape, ...], Field(min_length=1)]
+
+    def resized(self, width: int, height: int) -> Scene:
+        """The same view with an image of this size in pixels."""
+        return self.model_copy(update={"camera": self.camera.model_copy(update={"width": width, "height": height})})

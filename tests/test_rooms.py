@@ -16,7 +16,11 @@ pytestmark = pytest.mark.clause("PRJ-1")
 PATHS = {module_of(path): path for path in sources()}
 
 # A report reads what others wrote down, and knows nothing of how it came about.
-RECORDS = ("raytruth.comparisons.records", "raytruth.reference_tracer.explanation_record")
+RECORDS = (
+    "raytruth.comparisons.records",
+    "raytruth.reference_tracer.explanation_record",
+    "raytruth.reference_tracer.storage.whole_files",
+)
 # The physics reads like a textbook: it knows neither scenes nor arithmetics.
 ALONE = {"scenes", "reference_tracer/source", "reference_tracer/storage"}
 

@@ -14,11 +14,11 @@ from raytruth.comparisons.faults.catalogue import all_faults
 from raytruth.comparisons.faults.variants import all_variants
 from raytruth.comparisons.kills.kill_matrix import KillCell, SceneKills, kills_on
 from raytruth.comparisons.kills.set_cover import smallest_cover
-from raytruth.comparisons.matrix.results_directory import write_whole
 from raytruth.comparisons.measures.public_gates import GATES
 from raytruth.comparisons.records.kill_results import RESULTS_FILE, FaultResult, KillResults, VariantResult
 from raytruth.reference_tracer.certified_image import collect_garbage_rarely
 from raytruth.reference_tracer.storage.source_digest import source_digest
+from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.scenes.library import open_scene
 
 if TYPE_CHECKING:

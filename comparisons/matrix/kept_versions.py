@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.matrix.cell_key import adapter_digest
-from raytruth.reference_tracer.storage.cache import cache_folder, written_whole
+from raytruth.reference_tracer.storage.cache import cache_folder
 from raytruth.reference_tracer.storage.source_digest import source_digest
+from raytruth.reference_tracer.storage.whole_files import write_whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -43,8 +44,7 @@ def tried_version(renderer: Renderer) -> str | None:
     if version is None:
         _file(renderer).unlink(missing_ok=True)
     else:
-        with written_whole(_file(renderer)) as file:
-            file.write(f"{_circumstances(renderer)}\n{version}\n".encode())
+        write_whole(_file(renderer), f"{_circumstances(renderer)}\n{version}\n")
     return version
 
 

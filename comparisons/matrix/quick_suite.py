@@ -43,5 +43,4 @@ def small(scene: Scene) -> Scene:
     divisor = 1
     while (camera.width // divisor) * (camera.height // divisor) > MOST_PIXELS:
         divisor += 1
-    size = {"width": max(1, camera.width // divisor), "height": max(1, camera.height // divisor)}
-    return scene.model_copy(update={"camera": camera.model_copy(update=size)})
+    return scene.resized(max(1, camera.width // divisor), max(1, camera.height // divisor))

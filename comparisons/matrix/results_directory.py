@@ -25,6 +25,7 @@ from raytruth.comparisons.records.results import (
     SceneRecord,
 )
 from raytruth.comparisons.renderers.catalogue import family_of
+from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.scenes.light_paths import whitted_class
 from raytruth.scenes.requirements import required_features
 
@@ -111,17 +112,6 @@ def with_metrics(directory: Path, cells: Sequence[Cell]) -> list[Cell]:
         measured = list(pool.map(lambda part: _measured(directory, part), (lacking[::2], lacking[1::2])))
     by_place = {cell_place(cell): cell for part in measured for cell in part}
     return [by_place.get(cell_place(cell), cell) for cell in cells]
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Write a file whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    scratch = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        scratch.write_text(text, encoding="utf-8")
-        scratch.replace(path)
-    finally:
-        scratch.unlink(missing_ok=True)
 
 
 def _measured(directory: Path, cells: Iterable[Cell]) -> list[Cell]:

@@ -40,9 +40,7 @@ def area_means(scene: Scene) -> tuple[Array, Array]:
 
 def enlarged(scene: Scene, factor: int) -> Scene:
     """The same view with so many times the pixels along each side."""
-    camera = scene.camera
-    size = {"width": camera.width * factor, "height": camera.height * factor}
-    return scene.model_copy(update={"camera": camera.model_copy(update=size)})
+    return scene.resized(scene.camera.width * factor, scene.camera.height * factor)
 
 
 def _over_neighbours(points: Array, choose: np.ufunc) -> Array:

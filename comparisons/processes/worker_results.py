@@ -1,4 +1,4 @@
-"""Reading what a child process wrote: it may be missing, truncated, or of another shape."""
+"""The arrays that a child process leaves: when they are read, they may be missing, truncated, or of another shape."""
 
 from __future__ import annotations
 
@@ -8,12 +8,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from raytruth.comparisons.records.renderings import RendererError
+from raytruth.reference_tracer.storage.whole_files import unfinished_file
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
+
+
+def write_arrays(path: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Write an .npz file, so that a process that is killed leaves none rather than half of one."""
+    with unfinished_file(path) as file:
+        np.savez(file, allow_pickle=False, **arrays)
 
 
 def read_arrays(path: Path, shapes: Mapping[str, tuple[int, ...]], program: str) -> dict[str, NDArray[Any]]:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import numpy as np
 import OpenImageIO
 
+from raytruth.reference_tracer.storage.whole_files import unfinished_file
 from raytruth.scenes.camera import LARGEST_SIDE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from pathlib import Path
 
     from numpy.typing import NDArray
 
@@ -45,13 +45,11 @@ def write_channels(path: Path, image: NDArray[np.float32], names: Sequence[str])
     spec = OpenImageIO.ImageSpec(width, height, channels, "float")
     spec.channelnames = tuple(names)
     try:
-        with TemporaryDirectory(prefix=".", dir=path.parent) as folder:  # beside the file, so that a rename can move it
-            whole = Path(folder) / "image.exr"
+        with unfinished_file(path) as file:
             buffer = OpenImageIO.ImageBuf(spec)
             buffer.set_pixels(OpenImageIO.ROI.All, image)
-            if not buffer.write(str(whole)):
+            if not buffer.write(str(file)):
                 raise ImageError(f"{path}: the image could not be written ({_text(buffer.geterror)})")
-            whole.replace(path)
     except OSError as error:
         raise ImageError(f"{path}: the image could not be written ({error.strerror})") from error
 

@@ -15,7 +15,8 @@ import numpy as np
 
 from raytruth.reference_tracer.arithmetics import compiled_stack
 from raytruth.reference_tracer.arithmetics.instantiation import COMPILED_ENTRY_POINTS
-from raytruth.reference_tracer.storage.cache import cache_folder, written_whole
+from raytruth.reference_tracer.storage.cache import cache_folder
+from raytruth.reference_tracer.storage.whole_files import write_whole
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -93,8 +94,7 @@ def compiled_module(text: str) -> ModuleType:
     everything = f"{numba.__version__}\n{np.__version__}\n{stack}\n{text}"
     path = cache_folder() / "kernels" / f"kernel_{hashlib.sha256(everything.encode()).hexdigest()[:16]}.py"
     if not path.exists():
-        with written_whole(path) as file:
-            file.write(text.encode())
+        write_whole(path, text)
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None

@@ -33,8 +33,7 @@ def lobes_of(name: str, side: int | None = None) -> Lobes:
     scene = open_scene(name)
     if side is None:
         return find_lobes(scene)
-    camera = scene.camera.model_copy(update={"width": side, "height": side})
-    return find_lobes(scene.model_copy(update={"camera": camera}))
+    return find_lobes(scene.resized(side, side))
 
 
 def bound_of(name: str) -> float:

@@ -123,8 +123,7 @@ def _small(scene_name: str) -> Scene:
     scene = open_scene(scene_name)
     camera = scene.camera
     share = 2 if any(material.dielectric for material in scene.materials.values()) else 3
-    smaller = camera.model_copy(update={"width": camera.width // share, "height": camera.height // share})
-    return scene.model_copy(update={"camera": smaller})
+    return scene.resized(camera.width // share, camera.height // share)
 
 
 def _place(scene_name: str, judge: tuple[str, str]) -> CellPlace:

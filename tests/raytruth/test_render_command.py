@@ -30,7 +30,7 @@ def test_an_exr_holds_the_tracers_image_at_the_size_asked_for(
     assert (told["scene"], told["file"], told["width"], told["height"]) == ("two-lights", str(path), 8, 6)
     assert (told["arithmetic"], told["samples"]) == ("float", 2)
     scene = open_scene("two-lights")
-    small = scene.model_copy(update={"camera": scene.camera.model_copy(update={"width": 8, "height": 6})})
+    small = scene.resized(8, 6)
     np.testing.assert_array_equal(read_image(path), render(small, FLOAT, samples=2).astype(np.float32))
 
 
@@ -52,7 +52,7 @@ def test_a_png_is_8_bit_srgb(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert str(path) in out
     assert "8x6" in err  # what takes long is announced
     scene = open_scene("checkerboard-floor")
-    small = scene.model_copy(update={"camera": scene.camera.model_copy(update={"width": 8, "height": 6})})
+    small = scene.resized(8, 6)
     linear = np.clip(render(small, FLOAT).astype(np.float32).astype(np.float64), 0, 1)
     # IEC 61966-2-1: the transfer function of sRGB.
     encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)

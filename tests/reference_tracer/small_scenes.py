@@ -42,4 +42,4 @@ def lamp(position: tuple[float, float, float], intensity: float = 1.0, falloff: 
 def library_scene(name: str, width: int = 12, height: int = 9) -> Scene:
     """A scene of the library with a smaller image."""
     scene = open_scene(name)
-    return scene.model_copy(update={"camera": scene.camera.model_copy(update={"width": width, "height": height})})
+    return scene.resized(width, height)

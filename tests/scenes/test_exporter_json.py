@@ -62,7 +62,7 @@ def test_a_scene_loads_from_one_file_as_the_same(name: str, tmp_path: Path) -> N
 @pytest.mark.parametrize("name", ["trefoil-knot", "whitted-1980", "camera-under-water"])
 def test_the_image_is_the_same(name: str, tmp_path: Path) -> None:
     scene = open_scene(name)
-    small = scene.model_copy(update={"camera": scene.camera.model_copy(update={"width": 16, "height": 12})})
+    small = scene.resized(16, 12)
     image = render(load_scene(export_json(small, tmp_path)))
     assert np.asarray(image).any()
     np.testing.assert_array_equal(image, render(small))

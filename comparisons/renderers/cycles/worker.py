@@ -15,6 +15,7 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from raytruth.comparisons.processes.worker_results import write_arrays
 from raytruth.comparisons.renderers.cycles.job import JOB_FILE, RESULT_FILE, Ball, Camera, Job, Lamp, Mesh, Part
 from raytruth.comparisons.renderers.cycles.nodes import add_material, add_world
 
@@ -48,15 +49,8 @@ def main() -> None:
         result["batch_means"] = images.astype(np.float32)
     result["seconds"] = np.array(seconds)
     result["version"] = np.array(bpy.app.version_string)
-    write_whole(result)
-
-
-def write_whole(result: dict[str, Array]) -> None:
-    """Write the result so that a killed process leaves none rather than half of one."""
     Path(PICTURE_FILE).unlink()
-    unfinished = Path(f"unfinished-{RESULT_FILE}")
-    np.savez(unfinished, allow_pickle=False, **result)
-    unfinished.replace(RESULT_FILE)
+    write_arrays(Path(RESULT_FILE), result)
 
 
 def render_batches(scene: BlenderScene, job: Job) -> Array:

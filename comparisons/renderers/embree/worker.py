@@ -15,6 +15,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
+from raytruth.comparisons.processes.worker_results import write_arrays
 from raytruth.comparisons.renderers.embree.job import JOB_FILE, RESULT_FILE, TASK_FILE, Job, Light
 
 Array = NDArray[Any]
@@ -40,14 +41,7 @@ def main() -> None:
     result["lit"] = np.array(lit, dtype=bool).reshape(len(lit), *size)
     result["seconds"] = np.array(seconds)
     result["version"] = np.array(version("embreex"))
-    write_whole(result)
-
-
-def write_whole(result: dict[str, Array]) -> None:
-    """Write the result so that a killed process leaves none rather than half of one."""
-    unfinished = Path(f"unfinished-{RESULT_FILE}")
-    np.savez(unfinished, allow_pickle=False, **result)
-    unfinished.replace(RESULT_FILE)
+    write_arrays(Path(RESULT_FILE), result)
 
 
 def find_first_hits(

@@ -15,6 +15,7 @@ import mitsuba
 import numpy as np
 from numpy.typing import NDArray
 
+from raytruth.comparisons.processes.worker_results import write_arrays
 from raytruth.comparisons.renderers.mitsuba.job import JOB_FILE, RAYS_FILE, RESULT_FILE, Job
 
 # Rays that are traced at once in an `llvm` variant. A million keep the processor busy and take some 100 MB.
@@ -49,14 +50,7 @@ def main() -> None:
     result["seconds"] = np.array(seconds)
     for name, values in find_first_hits(scenes[0], *flat_rays, job).items():
         result[name] = values.reshape(height, width, *values.shape[1:])
-    write_whole(result)
-
-
-def write_whole(result: dict[str, Array]) -> None:
-    """Write the result so that a killed process leaves none rather than half of one."""
-    unfinished = Path(f"unfinished-{RESULT_FILE}")
-    np.savez(unfinished, allow_pickle=False, **result)
-    unfinished.replace(RESULT_FILE)
+    write_arrays(Path(RESULT_FILE), result)
 
 
 def is_vectorised() -> bool:

@@ -16,6 +16,7 @@ from vtkmodules.vtkCommonCore import vtkInformation
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 from vtkmodules.vtkRenderingOpenGL2 import vtkLightingMapPass
 
+from raytruth.comparisons.processes.worker_results import write_arrays
 from raytruth.comparisons.renderers.vtk.job import JOB_FILE, RESULT_FILE, TASK_FILE, Job, Lamp, Surface
 from raytruth.comparisons.renderers.vtk.window import Window
 
@@ -39,14 +40,7 @@ def main() -> None:
     result["seconds"] = np.array(time.perf_counter() - start)
     result["version"] = np.array(window.version())
     window.plotter.close()
-    write_whole(result)
-
-
-def write_whole(result: dict[str, Array]) -> None:
-    """Write the result so that a killed process leaves none rather than half of one."""
-    unfinished = Path(f"unfinished-{RESULT_FILE}")
-    np.savez(unfinished, allow_pickle=False, **result)
-    unfinished.replace(RESULT_FILE)
+    write_arrays(Path(RESULT_FILE), result)
 
 
 def drawn_first_hits(window: Window, triangles: Array) -> dict[str, Array]:

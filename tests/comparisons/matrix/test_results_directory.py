@@ -10,7 +10,7 @@ import pytest
 
 from raytruth.comparisons.matrix import results_directory
 from raytruth.comparisons.matrix.cell import CELL_FILE
-from raytruth.comparisons.matrix.results_directory import with_metrics, write_results, write_whole
+from raytruth.comparisons.matrix.results_directory import with_metrics, write_results
 from raytruth.comparisons.records.image_files import write_image
 from raytruth.comparisons.records.results import (
     RESULTS_FILE,
@@ -134,21 +134,6 @@ def test_an_earlier_file_that_is_broken_or_of_another_version_is_replaced(tmp_pa
 
 
 @pytest.mark.clause("RES-2")
-def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "new" / "file.json"
-    write_whole(path, "whole")
-    assert path.read_text() == "whole"
-
-    def full(*_: object, **__: object) -> int:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(type(path), "write_text", full)
-    with pytest.raises(OSError, match="No space left"):
-        write_whole(path, "half")
-    assert path.read_bytes() == b"whole"
-    assert [other.name for other in path.parent.iterdir()] == ["file.json"]
-
-
 def with_images(folder: Path, name: str, offset: float) -> Cell:
     """A cell whose image is off by this much everywhere."""
     cells = folder / "cells" / name / "pretender-whitted"

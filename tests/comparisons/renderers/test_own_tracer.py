@@ -24,7 +24,7 @@ SCENE = "facing-mirrors-depth-2"  # one for both tests, since each scene takes s
 
 def small(name: str) -> Scene:
     scene = open_scene(name)
-    return scene.model_copy(update={"camera": scene.camera.model_copy(update={"width": 12, "height": 9})})
+    return scene.resized(12, 9)
 
 
 def rendered(scene: Scene, depth: int, folder: Path) -> Rendering:

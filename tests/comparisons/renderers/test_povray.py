@@ -37,7 +37,7 @@ WIDTH, HEIGHT = 24, 18
 
 def small(name: str) -> Scene:
     scene = open_scene(name)
-    return scene.model_copy(update={"camera": scene.camera.model_copy(update={"width": WIDTH, "height": HEIGHT})})
+    return scene.resized(WIDTH, HEIGHT)
 
 
 @cache

@@ -51,7 +51,7 @@ needs_cycles = pytest.mark.skipif(not REQUIRED and Cycles().version() is None, r
 
 # Some 2^7 float32 roundings of values about 1.
 BOUND = 2e-5
-SMALL = {"width": 24, "height": 18}
+SMALL = (24, 18)
 
 
 def render(scene: Scene, folder: Path, depth: int = 0) -> Rendering:
@@ -159,7 +159,7 @@ def test_the_mean_over_a_glass_slab_is_the_known_one_and_batches_and_pixels_are_
 
 def small(name: str) -> Scene:
     scene = open_scene(name)
-    return scene.model_copy(update={"camera": scene.camera.model_copy(update=SMALL)})
+    return scene.resized(*SMALL)
 
 
 @cache
