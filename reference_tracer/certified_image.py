@@ -19,9 +19,8 @@ import flint
 import numpy as np
 
 from raytruth.reference_tracer.certification import TWO_ROUNDINGS, CertifiedPixel, Certifier, Enclosure, Undecided
-from raytruth.reference_tracer.storage.cache import cache_folder
+from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
 from raytruth.reference_tracer.storage.source_digest import source_digest
-from raytruth.reference_tracer.storage.whole_files import unfinished_file
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -195,7 +194,7 @@ def _joined(bands: Sequence[tuple[_Band, CertifiedImage]]) -> CertifiedImage:
 
 def _write(band: _Band, image: CertifiedImage) -> None:
     undecided = [[column, row, asdict(reason)] for (column, row), reason in image.undecided.items()]
-    with unfinished_file(band.file) as file:
+    with kept_file(band.file) as file:
         np.savez(
             file,
             middle=image.middle,

@@ -16,9 +16,8 @@ import numpy as np
 
 from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet, feasible_set
 from raytruth.comparisons.matrix.cell_key import APART
-from raytruth.reference_tracer.storage.cache import cache_folder
+from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
 from raytruth.reference_tracer.storage.source_digest import source_digest
-from raytruth.reference_tracer.storage.whole_files import unfinished_file
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -49,7 +48,7 @@ def _digest(*parts: str) -> str:
 def _write(path: Path, key: str, feasible: FeasibleSet) -> None:
     """Most places for outcomes are unused, which compresses well."""
     arrays = {field.name: getattr(feasible, field.name) for field in fields(FeasibleSet)}
-    with unfinished_file(path) as file:
+    with kept_file(path) as file:
         np.savez_compressed(file, allow_pickle=False, key=np.array(key), **arrays)
 
 

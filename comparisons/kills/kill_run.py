@@ -144,4 +144,6 @@ def _kept(directory: Path, source: str) -> SceneKills | None:
 
 
 def _keep(directory: Path, source: str, kills: SceneKills) -> None:
-    write_whole(_kept_path(directory, source), json.dumps({"key": _key(source), **asdict(kills)}))
+    path = _kept_path(directory, source)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(path, json.dumps({"key": _key(source), **asdict(kills)}))

@@ -14,9 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.matrix.cell_key import adapter_digest
-from raytruth.reference_tracer.storage.cache import cache_folder
+from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
 from raytruth.reference_tracer.storage.source_digest import source_digest
-from raytruth.reference_tracer.storage.whole_files import write_whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -44,7 +43,8 @@ def tried_version(renderer: Renderer) -> str | None:
     if version is None:
         _file(renderer).unlink(missing_ok=True)
     else:
-        write_whole(_file(renderer), f"{_circumstances(renderer)}\n{version}\n")
+        with kept_file(_file(renderer)) as file:
+            file.write_text(f"{_circumstances(renderer)}\n{version}\n", encoding="utf-8")
     return version
 
 

@@ -15,10 +15,9 @@ if TYPE_CHECKING:
 def unfinished_file(path: Path) -> Iterator[Path]:
     """Another name in the same folder, to write the file under; it gets its own name when the block ends well.
 
-    The folder is made where it is missing. Other processes may write the same file: the last one stays. What is broken
-    off leaves an earlier file as it is. Raises OSError.
+    Other processes may write the same file: the last one stays. What is broken off leaves an earlier file as it is.
+    Raises OSError.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
     unfinished = path.with_name(f".{secrets.token_hex(8)}{path.suffix}")
     try:
         yield unfinished

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.clause("ARI-6")
 
 
 def test_a_file_gets_its_name_when_it_is_whole(tmp_path: Path) -> None:
-    path = tmp_path / "new" / "file.txt"
+    path = tmp_path / "file.txt"
     for content in (b"one", b"two"):
         before = path.read_bytes() if path.exists() else None
         with unfinished_file(path) as file:
