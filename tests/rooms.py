@@ -96,3 +96,13 @@ def levels(graph: Graph) -> dict[str, int]:
         for module in ready:
             found[module] = 1 + max((found[needed] for needed in left.pop(module)), default=0)
     return found
+
+
+def main() -> None:
+    """Print each module after the number of its level, the lowest first."""
+    for module, level in sorted(levels(import_graph()).items(), key=lambda item: (item[1], item[0])):
+        print(f"{level:3} {module}")
+
+
+if __name__ == "__main__":
+    main()
