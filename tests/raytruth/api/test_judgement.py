@@ -159,4 +159,4 @@ def test_an_infinite_value_fails_its_pixel() -> None:
     spoiled[3, 5, 1] = np.inf
     judgement = raytruth.judge(spoiled, scene, FLOAT64)
     assert (judgement.failing, judgement.worst.x, judgement.worst.y) == (1, 5, 3)
-    assert judgement.worst.tolerances == np.inf
+    assert judgement.worst.value[1] == judgement.worst.tolerances == np.inf
