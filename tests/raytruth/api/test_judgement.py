@@ -36,10 +36,15 @@ def rendered(name: str) -> tuple[Scene, NDArray[Any]]:
     return scene, raytruth.render(scene, "float")
 
 
+@functools.cache
+def judged(name: str) -> raytruth.ImageJudgement:
+    scene, image = rendered(name)
+    return raytruth.judge(image, scene, FLOAT64)
+
+
 @pytest.mark.parametrize("name", raytruth.library_names())
 def test_the_tracers_own_image_of_each_scene_passes(name: str) -> None:
-    scene, image = rendered(name)
-    judgement = raytruth.judge(image, scene, FLOAT64)
+    judgement = judged(name)
     assert (judgement.verdict, judgement.failing) == ("pass", 0)
     assert judgement.pixels == WIDTH * HEIGHT
     assert judgement.distances.shape == (HEIGHT, WIDTH)
@@ -57,7 +62,7 @@ def test_a_visible_error_of_one_pixel_fails_that_pixel_and_no_other(
     column: int, row: int, channel: int, size: float, sign: int
 ) -> None:
     scene, image = rendered("sphere-over-floor")
-    right = raytruth.judge(image, scene, FLOAT64)
+    right = judged("sphere-over-floor")
     assert right.ambiguous == 0  # else an error might lead to another outcome
     spoiled = image.copy()
     spoiled[row, column, channel] += sign * size
