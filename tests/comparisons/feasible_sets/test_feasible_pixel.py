@@ -9,21 +9,13 @@ from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.feasible_sets.feasible_pixel import MOST_OUTCOMES, PixelEvaluator, UndecidableError
 from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
 from raytruth.comparisons.feasible_sets.rounded_rays import LinkedRays, PlainRays
-from tests.reference_tracer.kernels import kept_precision
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene, sphere
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from raytruth.scenes.scene import Scene
 
-pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
+pytestmark = pytest.mark.clause("VER-2")
 WHITE = {"emission": {"radiance": (1.0, 1.0, 1.0)}}
-
-
-@pytest.fixture
-def keep_precision() -> Iterator[None]:
-    yield from kept_precision()
 
 
 @pytest.fixture(params=[PlainRays, LinkedRays], autouse=True)
