@@ -45,6 +45,10 @@ def brighter(scene: Any, light: Any, distance_squared: Any) -> float:  # noqa: A
     return strengthened(4.0)
 
 
+def tenth(scene: Any, light: Any, distance_squared: Any) -> float:  # noqa: ARG001 - the signature of attenuation
+    return 0.1
+
+
 def no_shadows(scene: Any, primitive: Any, point: Any, normal: Any, to_light: Any, light_is_near: Any) -> bool:  # noqa: ARG001 - a signature
     return False
 
@@ -184,6 +188,22 @@ def test_numbers_and_images_have_the_precision_of_their_arithmetic_whatever_was_
         assert value() == coarse
 
 
+@pytest.mark.clause("ARI-3")
+def test_literals_and_the_numbers_of_a_scene_are_stored_at_the_precision_of_their_arithmetic() -> None:
+    arithmetic: Any = rounded_ball_arithmetic(24, Decisions())
+    scene = small_scene(lights=[lamp((0.1, 0.2, 3.0))])
+
+    def stored() -> list[arb]:
+        prepared: Any = prepare(scene, arithmetic, Behaviour({"attenuation": tenth}))
+        return [ball.mid() for ball in (prepared.kernel.number_0_1, *prepared.data.numbers)]
+
+    for precision in (10, 1000):
+        with ctx.workprec(precision):
+            numbers = stored()
+        assert numbers[0] == arb(0.1)
+        assert {0.1, 0.2, 3.0} <= {float(number) for number in numbers[1:]}
+
+
 @pytest.mark.clause("ARI-1")
 def test_floats_have_a_precision_of_their_own() -> None:
     before = ctx.prec
@@ -194,5 +214,7 @@ def test_floats_have_a_precision_of_their_own() -> None:
 
 @pytest.mark.clause("ARI-1")
 def test_interpreted_float32_is_float32_throughout() -> None:
+    for function in INTERPRETED_FLOAT32.functions.values():
+        assert type(function(np.float32(0.3)) if callable(function) else function) is np.float32
     image = render(library_scene("tinted-glass", 6, 4), INTERPRETED_FLOAT32)
     assert {type(number) for number in image.ravel()} == {np.float32}
