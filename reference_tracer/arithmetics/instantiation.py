@@ -2,7 +2,7 @@
 
 The source files are parsed and joined into one module, in which
 - `if MIRRORS:` and the like are decided, so that the kernel holds what the scene requires and nothing else;
-- a function may be overridden by another of the same signature (a variant, or a fault);
+- a behaviour may put other functions in place of some, of the same signatures (behaviour.py);
 - numeric literals are named constants, to be made of the kernel's number type;
 - for balls, comparisons and powers are calls, to be decided by three-valued logic;
 - for balls that follow a renderer's rounding, each result of an operation is rounded.
@@ -20,10 +20,13 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
 from raytruth.reference_tracer.source import features as all_features
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping
+    from collections.abc import Callable, Collection
+
+    from raytruth.reference_tracer.arithmetics.behaviour import Behaviour, Function
 
 SOURCE_FOLDER = Path(all_features.__file__).parent
 
@@ -87,7 +90,7 @@ def exact_functions() -> frozenset[str]:
 
 def kernel_source(
     features: Collection[str],
-    overrides: Mapping[str, Callable[..., object]] | None = None,
+    behaviour: Behaviour = IDEAL,
     *,
     entry_points: tuple[str, ...] = ENTRY_POINTS,
     decided_comparisons: bool = False,
@@ -95,16 +98,23 @@ def kernel_source(
 ) -> tuple[str, dict[str, float]]:
     """The kernel as Python text, and the literals it uses by the names that they have in it.
 
-    An override's source is put in place of the function it overrides, under that function's name; it may use all that
-    the function may. Raises KeyError for an override of a function that does not exist.
+    The source of a behaviour's function is put in place of the function that it stands in for, under that function's
+    name; helpers follow behind. All may use what the functions of the source may.
+    Raises KeyError for a function that does not exist, ValueError for a helper or a constant that already does.
     """
     _, constants = _functions_and_constants(source_module())
     pruned, literals = _pruned_functions(frozenset(features))
     functions, namer = dict(pruned), _LiteralNamer(dict(literals))
-    for name, override in (overrides or {}).items():
-        if name not in functions:
+    helpers = {helper.__name__: helper for helper in behaviour.helpers}
+    for name in (*helpers, *behaviour.constants):
+        if name in pruned or name in constants:
+            raise ValueError(f"the tracer's source and {behaviour.name} both say what {name} is")
+    for name in behaviour.functions:
+        if name not in pruned:
             raise KeyError(f"there is no function {name} in the tracer's source to override")
-        functions[name] = _PrunedFunction(namer.visit(_FeaturePruner(features).prune(_override(name, override))))
+    standing_in = {name: _override(name, function) for name, function in behaviour.functions.items()}
+    for name, definition in {**standing_in, **{name: _helper(function) for name, function in helpers.items()}}.items():
+        functions[name] = _PrunedFunction(namer.visit(_FeaturePruner(features).prune(definition)))
     reached = _reachable(functions, entry_points)
     mentioned = frozenset().union(*(function.mentions for function in reached))
     parts = [ast.unparse(constant) for name, constant in constants.items() if name in mentioned]
@@ -162,6 +172,12 @@ def _override(name: str, override: Callable[..., object]) -> ast.FunctionDef:
     bare.name = name
     bare.decorator_list = []
     return bare
+
+
+@cache
+def _helper(function: Function) -> ast.FunctionDef:
+    """Read once, since many kernels have the same helpers. Not to be changed."""
+    return _override(function.__name__, function)
 
 
 def _functions_and_constants(module: ast.Module) -> tuple[dict[str, ast.FunctionDef], dict[str, ast.Assign]]:

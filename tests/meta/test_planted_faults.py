@@ -19,6 +19,7 @@ from raytruth.comparisons.records.renderings import Rays
 from raytruth.comparisons.records.results import Cell, Verdict
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.rendering import primary_rays, render
 from raytruth.scenes.library import open_scene
 
@@ -101,8 +102,9 @@ def _judge(scene_name: str, judge: tuple[str, str], overrides: Mapping[str, Call
 
 
 def _evidence(scene: Scene, error_model: Any, overrides: Mapping[str, Callable[..., Any]]) -> Evidence:
-    truth = np.array(render(scene, FLOAT, overrides), dtype=np.float64)
-    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible_set(scene, error_model, overrides))
+    behaviour = Behaviour(overrides)
+    truth = np.array(render(scene, FLOAT, behaviour), dtype=np.float64)
+    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible_set(scene, error_model, behaviour))
 
 
 @cache

@@ -22,6 +22,7 @@ from tests.reference_tracer.kernels import (
     fractions_of,
     holds,
     kept_precision,
+    put_in_force,
 )
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene
 
@@ -107,7 +108,7 @@ def test_floats_fractions_and_balls_agree_on_a_whole_pixel() -> None:
     rounded = render(scene, FLOAT)[0, 0]
     for bits in (200, 48):
         decisions = Decisions()
-        balls = render(scene, ball_arithmetic(bits, decisions))[0, 0]
+        balls = render(scene, put_in_force(ball_arithmetic(bits, decisions)))[0, 0]
         assert decisions.answers == []
         for ball, value, number in zip(balls, exact, rounded, strict=True):
             assert holds(ball, value)
@@ -129,7 +130,7 @@ def test_some_outcome_in_balls_holds_the_floats_of_a_pixel(name: str) -> None:
     scene = library_scene(name, 8, 6)
     image = render(scene, FLOAT64)
     decisions = Decisions()
-    prepared = prepare(scene, ball_arithmetic(48, decisions))  # as above
+    prepared = prepare(scene, put_in_force(ball_arithmetic(48, decisions)))  # as above
     frame = prepared.kernel.camera_frame(prepared.data)
     for line, column in np.ndindex(image.shape[:2]):
         x, y = arb(column + 0.5), arb(line + 0.5)

@@ -7,6 +7,7 @@ import pytest
 from flint import arb
 
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, make_kernel
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS, VARIANTS
 from raytruth.reference_tracer.rendering import render
 from raytruth.scenes.requirements import Feature
@@ -31,7 +32,7 @@ def test_a_variant_gives_the_same_pictures_of_benign_scenes(name: str) -> None:
 
 @pytest.mark.parametrize("name", VARIANTS)
 def test_a_variant_is_not_the_default(name: str) -> None:
-    variant = make_kernel(FLOAT, set(Feature), VARIANTS[name])
+    variant = make_kernel(FLOAT, set(Feature), Behaviour(VARIANTS[name]))
     default = make_kernel(FLOAT, set(Feature))
     x: Any = np.random.default_rng(1)
     for _ in range(200):
