@@ -24,6 +24,7 @@ from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, INTERPRETED_
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.instantiation import functions_of
 from raytruth.reference_tracer.rendering import first_hits, prepare, primary_rays, render_prepared
+from raytruth.reference_tracer.source.scene_data import SPHERE_MATERIAL, TRIANGLE_MATERIAL
 from raytruth.reference_tracer.source.traversal import NOTHING
 from raytruth.scenes.requirements import required_features
 
@@ -151,7 +152,7 @@ def _first_hits_of(scene: Scene, subject: Subject) -> FirstHits:
     depths, primitives = first_hits(prepare(scene, FLOAT, _behaviour(subject)))
     rays = Rays(*primary_rays(scene))
     position, normal = np.full((2, *rays.origins.shape), np.nan)
-    count = right.kernel.rows_of(right.data, 2) + right.kernel.rows_of(right.data, 6)
+    count = right.kernel.rows_of(right.data, SPHERE_MATERIAL) + right.kernel.rows_of(right.data, TRIANGLE_MATERIAL)
     for line, column in np.argwhere(primitives != NOTHING).tolist():
         origin, direction = rays.origins[line, column].tolist(), rays.directions[line, column].tolist()
         point = right.kernel.along(origin, direction, depths[line, column])

@@ -37,6 +37,7 @@ class ReferenceTracer:
         f"float64 with {LIBRARY_BITS} bits for the mathematical library",
         precision_bits=FLOAT64_BITS - LIBRARY_BITS,
     )
+    error_models = (("*", error_model),)  # our own code, whatever the package's number
     install = "part of raytruth"
 
     def version(self) -> str:

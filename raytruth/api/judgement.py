@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from raytruth.comparisons.feasible_sets.kept_feasible_sets import kept_feasible_set
-from raytruth.comparisons.judgement.verdict import Evidence, judge_exact
-from raytruth.comparisons.matrix.matrix import _truth as proven_values
-from raytruth.comparisons.records.renderings import Rays
-from raytruth.reference_tracer.rendering import primary_rays
+from raytruth.comparisons.judgement.judged_truth import judged_truth
+from raytruth.comparisons.judgement.verdict import gather_evidence, judge_exact
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -67,7 +65,7 @@ def judge(image: NDArray[np.floating[Any]], scene: Scene, error_model: ErrorMode
     """
     _check(image, scene)
     values: Any = image.astype(np.float64)  # holds every number of the narrower types
-    judged = judge_exact(values, _evidence(scene, error_model))
+    judged = judge_exact(values, gather_evidence(scene, judged_truth(scene), kept_feasible_set(scene, error_model)))
     counts = judged.judgement
     assert counts.worst is not None, "an image has a pixel"
     return ImageJudgement(
@@ -81,11 +79,6 @@ def judge(image: NDArray[np.floating[Any]], scene: Scene, error_model: ErrorMode
         worst=counts.worst,
         distances=judged.distances.max(axis=2),
     )
-
-
-def _evidence(scene: Scene, error_model: ErrorModel) -> Evidence:
-    rays = Rays(*primary_rays(scene))
-    return Evidence(scene, proven_values(scene), rays, kept_feasible_set(scene, error_model))
 
 
 def _check(image: NDArray[Any], scene: Scene) -> None:

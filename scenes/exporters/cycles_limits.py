@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.scenes.exporters.mitsuba_limits import triangles_of
 from raytruth.scenes.exporters.povray_materials import relative_index
+from raytruth.scenes.exporters.triangle_soup import triangles_of
 from raytruth.scenes.lights import PointLight
 from raytruth.scenes.materials import CheckerboardColor
 from raytruth.scenes.requirements import Feature, required_features

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.scenes.camera import OrthographicCamera
+from raytruth.scenes.exporters.triangle_soup import triangles_of
 from raytruth.scenes.lights import PointLight
 from raytruth.scenes.materials import CheckerboardColor
 from raytruth.scenes.requirements import Feature, required_features
@@ -106,13 +107,6 @@ def reversed_primitives(scene: Scene) -> NDArray[np.bool_]:
             emissive = _is_emissive(scene, shape)
             reverse.append(emissive and _sides_seen(scene, triangle, specular_points, specular_radii) == {-1})
     return np.array(reverse, dtype=bool)
-
-
-def triangles_of(shape: Triangle | Mesh) -> NDArray[np.float64]:
-    """The corners of its triangles in face order, shape (faces, 3, 3)."""
-    if isinstance(shape, Triangle):
-        return np.array([shape.vertices], dtype=np.float64)
-    return np.array(shape.vertices, dtype=np.float64)[np.array(shape.faces, dtype=np.int64)]
 
 
 def _is_emissive(scene: Scene, shape: Sphere | Triangle | Mesh) -> bool:

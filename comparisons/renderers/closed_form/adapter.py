@@ -46,6 +46,7 @@ class ClosedFormRenderer:
         f"float64 with {REORDERING_BITS} bits for another order of operations",
         precision_bits=FLOAT64_BITS - REORDERING_BITS,
     )
+    error_models = (("*", error_model),)  # our own formulas, in operations that every NumPy rounds alike
     install = "part of raytruth"
 
     def version(self) -> str:

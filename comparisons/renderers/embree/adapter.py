@@ -88,6 +88,8 @@ class EmbreeRenderer:
     ) -> None:
         self.name = name
         self.error_model = error_model
+        # embreex has the version of the Embree in it; those after 4.4.0 only mend faults.
+        self.error_models = (("embreex 4.4.*", error_model),)
         self.integrators = integrators
         self.robust = robust
 
