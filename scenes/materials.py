@@ -44,6 +44,13 @@ LightSource = Literal["lights", "ambient light", "rays", "itself"]
 further rays that it sends on, reflected or refracted; or the surface itself."""
 
 
+def colors_of(texture: Texture) -> tuple[Color, ...]:
+    """The colours that it shows somewhere: one, or the two of a checkerboard."""
+    if isinstance(texture, CheckerboardColor):
+        return texture.checkerboard.even, texture.checkerboard.odd
+    return (texture,)
+
+
 class Term(Part):
     """One term of a material, with what can be told of it alone."""
 

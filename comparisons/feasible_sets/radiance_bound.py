@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from raytruth.scenes.lights import ConstantBackground
-from raytruth.scenes.materials import Dielectric, Emission, Mirror
+from raytruth.scenes.materials import Dielectric, Emission, Mirror, colors_of
+from raytruth.scenes.media import index_of_medium
 from raytruth.scenes.requirements import used_materials
 
 if TYPE_CHECKING:
-    from raytruth.scenes.materials import Material, Texture
+    from raytruth.scenes.materials import Material
     from raytruth.scenes.scene import Scene
 
 
@@ -41,15 +42,9 @@ def radiance_bound(scene: Scene) -> RadianceBound | None:
     indices = [1.0, *(m.dielectric.index_of_refraction for m in scene.materials.values() if m.dielectric)]
     if scene.convention != "radiometric":
         return RadianceBound(brightest, brightest, 1.0)
-    from_camera = (_camera_index(scene) / min(indices)) ** 2
+    from_camera = (index_of_medium(scene, scene.camera.inside) / min(indices)) ** 2
     between_media = (max(indices) / min(indices)) ** 2
     return RadianceBound(brightest * between_media, brightest * from_camera, between_media)
-
-
-def _camera_index(scene: Scene) -> float:
-    """Of the medium that the camera is in."""
-    inside = scene.materials[scene.camera.inside].dielectric if scene.camera.inside else None
-    return inside.index_of_refraction if inside else 1.0
 
 
 def _brightest_emission(material: Material) -> float | None:
@@ -61,7 +56,7 @@ def _brightest_emission(material: Material) -> float | None:
     if others:
         return None
     if isinstance(term, Emission):
-        return _brightest(term.radiance)
+        return max(map(max, colors_of(term.radiance)))
     conserves_energy = (isinstance(term, Mirror) and max(term.reflectance) <= 1) or (
         isinstance(term, Dielectric) and term.reflectance is None
     )
@@ -72,9 +67,3 @@ def _brightest_background(scene: Scene) -> float:
     if isinstance(scene.background, ConstantBackground):
         return max(scene.background.color)
     return max(*scene.background.bottom, *scene.background.top)
-
-
-def _brightest(texture: Texture) -> float:
-    if isinstance(texture, tuple):
-        return max(texture)
-    return max(*texture.checkerboard.even, *texture.checkerboard.odd)

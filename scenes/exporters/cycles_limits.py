@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.scenes.exporters.mitsuba_limits import triangles_of
-from raytruth.scenes.exporters.povray_materials import relative_index
 from raytruth.scenes.features import BACKGROUNDS, GEOMETRY, RADIOMETRIC_LIGHTS, Feature, missing_features
 from raytruth.scenes.lights import PointLight
-from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.materials import colors_of
+from raytruth.scenes.media import relative_index
 from raytruth.scenes.requirements import required_features
 from raytruth.scenes.shapes import Mesh, Sphere
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from raytruth.scenes.materials import Material, Texture
+    from raytruth.scenes.materials import Material
     from raytruth.scenes.scene import Scene
     from raytruth.scenes.shapes import Shape, Triangle
 
@@ -91,19 +91,13 @@ def _reflectances(material: Material) -> Iterator[tuple[float, ...]]:
     if material.mirror:
         yield material.mirror.reflectance
     if material.diffuse:
-        yield from _texture_colors(material.diffuse.reflectance)
+        yield from colors_of(material.diffuse.reflectance)
 
 
 def _colors(material: Material) -> Iterator[tuple[float, ...]]:
     yield from _reflectances(material)
     if material.emission:
-        yield from _texture_colors(material.emission.radiance)
-
-
-def _texture_colors(texture: Texture) -> tuple[tuple[float, ...], ...]:
-    if isinstance(texture, CheckerboardColor):
-        return texture.checkerboard.even, texture.checkerboard.odd
-    return (texture,)
+        yield from colors_of(material.emission.radiance)
 
 
 def _refuses_camera(scene: Scene) -> str | None:

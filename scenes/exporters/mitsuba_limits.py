@@ -9,7 +9,7 @@ import numpy as np
 from raytruth.scenes.camera import OrthographicCamera
 from raytruth.scenes.features import BACKGROUNDS, GEOMETRY, RADIOMETRIC_LIGHTS, Feature, missing_features
 from raytruth.scenes.lights import PointLight
-from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.materials import CheckerboardColor, colors_of
 from raytruth.scenes.requirements import required_features
 from raytruth.scenes.shapes import Mesh, Sphere, Triangle
 
@@ -58,7 +58,7 @@ def _refuses_material(scene: Scene, material: Material) -> str | None:
         and (material.diffuse or material.mirror or material.emission),
         "Mitsuba blends a diffuse and a mirror term at random, with weights that add up to 1": material.diffuse
         and material.mirror,
-        "a reflectance of Mitsuba is at most 1": max(_reflectances(material), default=0) > 1,
+        "a reflectance of Mitsuba is at most 1": _largest_reflectance(material) > 1,
         "a dielectric of Mitsuba obeys Fresnel's equations and has no constant weights": material.dielectric
         and material.dielectric.reflectance is not None,
         NO_ABSORPTION: material.dielectric and any(material.dielectric.absorption or ()),
@@ -66,14 +66,9 @@ def _refuses_material(scene: Scene, material: Material) -> str | None:
     return next((reason for reason, holds in reasons.items() if holds), None)
 
 
-def _reflectances(material: Material) -> tuple[float, ...]:
-    mirror = material.mirror.reflectance if material.mirror else ()
-    if material.diffuse is None:
-        return mirror
-    diffuse = material.diffuse.reflectance
-    if isinstance(diffuse, CheckerboardColor):
-        return mirror + diffuse.checkerboard.even + diffuse.checkerboard.odd
-    return mirror + diffuse
+def _largest_reflectance(material: Material) -> float:
+    textures = [term.reflectance for term in (material.mirror, material.diffuse) if term]
+    return max((max(color) for texture in textures for color in colors_of(texture)), default=0.0)
 
 
 def _refuses_textures(scene: Scene, name: str, material: Material) -> str | None:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.scenes.exporters.povray_materials import polynomial_falloff, relative_index
+from raytruth.scenes.exporters.povray_materials import polynomial_falloff
 from raytruth.scenes.features import BACKGROUNDS, FURTHER_RAYS, GEOMETRY, LIGHTS, LOCAL_TERMS, missing_features
+from raytruth.scenes.media import relative_index
 from raytruth.scenes.requirements import required_features
 from raytruth.scenes.shapes import Mesh, Sphere
 
