@@ -32,7 +32,10 @@ def refuses(scene: Scene) -> str | None:
         return "a point light of glTF falls off with the inverse square of the distance and in no other way"
     reasons = (_refuses_material(scene, material) for material in used_materials(scene))
     reason = next((reason for reason in reasons if reason), None)
-    return reason or missing_features("glTF", EXPRESSES, required_features(scene))
+    required = required_features(scene)
+    if reason is None and Feature.ABSORPTION in required:  # of a medium that no object needs to be made of, too
+        return "a camera of glTF is in empty space, and here it is in a medium that absorbs light"
+    return reason or missing_features("glTF", EXPRESSES, required)
 
 
 def _refuses_material(scene: Scene, material: Material) -> str | None:
