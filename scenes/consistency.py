@@ -157,10 +157,9 @@ def _classical_terms(parts: Parts) -> Iterator[Problem]:
         if isinstance(light, PointLight) and light.falloff != "inverse_square":
             yield f"lights[{index}].falloff", "falloff other than 'inverse_square'"
     for name, material in parts.materials.items():
-        if material.ambient is not None:
-            yield place(("materials", name, "ambient")), "ambient term"
-        if material.specular is not None:
-            yield place(("materials", name, "specular")), "specular term"
+        for key, term in material.terms().items():
+            if term.is_classical:
+                yield place(("materials", name, key)), f"{key} term"
         if material.dielectric is not None and material.dielectric.reflectance is not None:
             yield place(("materials", name, "dielectric", "reflectance")), "constant reflectance and transmittance"
 

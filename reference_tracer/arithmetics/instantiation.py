@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour, Function
 
 SOURCE_FOLDER = Path(all_features.__file__).parent
+SOURCE_FEATURES = frozenset(name for name in vars(all_features) if name.isupper())
+"""What the source knows that a scene may require."""
 
 SOURCE_FILES = (
     "scene_data",
@@ -100,7 +102,8 @@ def kernel_source(
 
     The source of a behaviour's function is put in place of the function that it stands in for, under that function's
     name; helpers follow behind. All may use what the functions of the source may.
-    Raises KeyError for a function that does not exist, ValueError for a helper or a constant that already does.
+    Raises KeyError for a function that does not exist, or a feature that the source does not know; ValueError for a
+    helper or a constant that already exists.
     """
     _, constants = _functions_and_constants(source_module())
     pruned, literals = _pruned_functions(frozenset(features))
@@ -148,6 +151,9 @@ class _PrunedFunction:
 @cache
 def _pruned_functions(features: frozenset[str]) -> tuple[dict[str, _PrunedFunction], dict[str, float]]:
     """All functions for these features, and the values of their literals by name."""
+    unknown = features - SOURCE_FEATURES
+    if unknown:  # else what is new in scenes would be left out of every image without a word
+        raise KeyError(f"the tracer's source knows no {', '.join(sorted(unknown))}")
     functions, _ = _functions_and_constants(source_module())
     pruner, namer = _FeaturePruner(features), _LiteralNamer({})
     pruned = {name: _PrunedFunction(namer.visit(pruner.prune(function))) for name, function in functions.items()}
@@ -202,7 +208,7 @@ class _FeaturePruner(ast.NodeTransformer):
     """Replaces feature names by True and False and drops the branches that cannot be taken."""
 
     def __init__(self, features: Collection[str]) -> None:
-        self.values = {name: name in features for name in vars(all_features) if name.isupper()}
+        self.values = {name: name in features for name in SOURCE_FEATURES}
 
     def prune(self, function: ast.FunctionDef) -> ast.FunctionDef:
         pruned: ast.FunctionDef = self.visit(ast.parse(ast.unparse(function)).body[0])

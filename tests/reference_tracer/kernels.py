@@ -13,7 +13,7 @@ from flint import arb, ctx
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, INTERPRETED_FLOAT32, Arithmetic, make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, ball_arithmetic
 from raytruth.reference_tracer.source.scene_data import NUMBER_OF_TABLES, SceneData
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

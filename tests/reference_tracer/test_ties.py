@@ -20,7 +20,7 @@ from raytruth.reference_tracer.ties import (
     explanation,
     sentence,
 )
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 
 pytestmark = pytest.mark.clause("ARI-3")
 

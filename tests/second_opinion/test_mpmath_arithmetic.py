@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from raytruth.reference_tracer.arithmetics.kernel import Kernel
     from raytruth.reference_tracer.certification import Enclosure
     from raytruth.reference_tracer.source.scene_data import SceneData
-    from raytruth.scenes.requirements import Feature
+    from raytruth.scenes.features import Feature
 
 pytestmark = pytest.mark.clause("ARI-10")
 

@@ -23,7 +23,7 @@ from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic
 from raytruth.reference_tracer.arithmetics.behaviour import merged
 from raytruth.reference_tracer.source.scene_data import TRIANGLE_A, TRIANGLE_B, TRIANGLE_C, TRIANGLE_MATERIAL
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.reference_tracer.kernels import kept_precision, put_in_force, scene_data
 
 if TYPE_CHECKING:

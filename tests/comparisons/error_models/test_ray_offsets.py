@@ -24,7 +24,7 @@ from raytruth.reference_tracer.source.scene_data import (
     TRIANGLE_C,
     TRIANGLE_MATERIAL,
 )
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.reference_tracer.kernels import kept_precision, put_in_force, scene_data
 
 if TYPE_CHECKING:

@@ -29,7 +29,7 @@ from raytruth.reference_tracer.source.scene_data import (
     TRIANGLE_C,
 )
 from raytruth.reference_tracer.source.triangle import triangle_distance
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.comparisons.error_models.test_triangle_tests import random_cases
 from tests.reference_tracer.kernels import kept_precision, put_in_force, scene_data
 

@@ -12,7 +12,7 @@ from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLO
 from raytruth.reference_tracer.arithmetics.balls import Decisions, ball_arithmetic, every_outcome
 from raytruth.reference_tracer.rendering import first_hits, prepare, render
 from raytruth.reference_tracer.tables import build_tables
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.reference_tracer.kernels import (
     EXACT,
     ball_kernel,

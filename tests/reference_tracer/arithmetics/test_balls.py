@@ -19,7 +19,7 @@ from raytruth.reference_tracer.arithmetics.balls import (
     rounded_ball_arithmetic,
     stored_number,
 )
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.reference_tracer.kernels import kept_precision, numpy_kernel, put_in_force
 
 if TYPE_CHECKING:

@@ -17,8 +17,9 @@ from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 from raytruth.reference_tracer.rendering import prepare, render
 from raytruth.reference_tracer.source import scene_data as layout
 from raytruth.reference_tracer.tables import build_tables
+from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
-from raytruth.scenes.requirements import Feature, required_features
+from raytruth.scenes.requirements import required_features
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, make_kernel
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS, VARIANTS
 from raytruth.reference_tracer.rendering import render
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.reference_tracer.kernels import ball_kernel, kept_precision
 from tests.reference_tracer.small_scenes import library_scene
 
