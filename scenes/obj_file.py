@@ -23,11 +23,11 @@ from raytruth.scenes.triangle_lists import (
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-# Normals, texture coordinates, names, materials and how things are shown change nothing: a scene states its own
-# material. Points and curves have no area; what belongs to free-form geometry makes no surface without `surf`.
+# Normals, texture coordinates, names, materials, weights of bones and how things are shown change nothing: a scene
+# states its own material. Points and curves have no area; what belongs to free-form geometry makes no surface without `surf`.
 _READ_PAST = frozenset(
     b"vn vt vp "
-    b"g s o mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj "
+    b"g s o mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj vw "
     b"p l curv curv2 cdc cstype deg bmat step parm trim hole scrv sp end con ctech stech res".split()
 )
 
@@ -129,10 +129,10 @@ def _add_vertex(words: list[bytes], mesh: _Mesh) -> bytes | None:
             "expected 'v x y z', which a weight or a colour may follow, so 3, 4, 6 or 7 numbers, "
             f"found {shown(b'v', *words)}."
         )
-    numbers = [number(word) for word in words]
-    x, y, z = map(check_coordinate, numbers[:3])
+    # A colour is read past, since some programs write nan where they have none.
+    x, y, z = (check_coordinate(number(word)) for word in words[:3])
     mesh.vertices.append((x, y, z))
-    return words[3] if len(words) == _LENGTH_WITH_WEIGHT and numbers[3] != 1 else None
+    return words[3] if len(words) == _LENGTH_WITH_WEIGHT and number(words[3]) != 1 else None
 
 
 def _corner(word: bytes, vertex_count: int) -> int:

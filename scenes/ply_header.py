@@ -30,8 +30,8 @@ _TYPE_CODES = INTEGER_CODES | {b"float": "f", b"double": "d", b"float32": "f", b
 # As many vertices as the largest mesh has corners.
 _MOST_ROWS = 3 * LARGEST_FACE_COUNT
 
-# Scans with splats have some 60 properties; a million would take a gigabyte before a row is read.
-_MOST_DECLARATIONS = 10_000
+# Clouds of splats have some 60 properties; millions would take gigabytes before a row is read.
+_MOST_DECLARATIONS = 1000
 
 # The line end after `ply` is that of the whole header, which tells where binary data begin: a file whose lines end in
 # CR may have data that begin with the byte of LF. Several CR before LF come from files that were converted twice.
@@ -127,7 +127,7 @@ def _declare(words: list[bytes], declarations: int, elements: list[Element]) -> 
     if declarations > _MOST_DECLARATIONS:
         raise MeshFileError(f"expected at most {_MOST_DECLARATIONS} elements and properties, found more.")
     match words:
-        case [b"element", name, count] if re.fullmatch(rb"[0-9]{1,10}", count):
+        case [b"element", name, count] if re.fullmatch(rb"[0-9]{1,18}", count):
             if any(element.name == name for element in elements):
                 raise MeshFileError(f"expected one element {shown(name)}, found another.")
             elements.append(Element(name, int(count), []))
@@ -137,9 +137,16 @@ def _declare(words: list[bytes], declarations: int, elements: list[Element]) -> 
             elements and length in INTEGER_CODES and type_ in _TYPE_CODES
         ):
             _add(elements[-1], Property(name, _TYPE_CODES[type_], INTEGER_CODES[length]))
+        case [b"element", *_]:
+            raise MeshFileError(f"expected 'element NAME COUNT' with a whole number as count, found {shown(*words)}.")
+        case [b"property", *_]:
+            raise MeshFileError(
+                "expected 'property TYPE NAME' or 'property list TYPE TYPE NAME' after an element, with types such as "
+                f"uchar, int32 or float, and a whole one for a list's length, found {shown(*words)}."
+            )
         case _:
             raise MeshFileError(
-                "expected 'element NAME COUNT', or after one 'property TYPE NAME' or 'property list TYPE TYPE NAME', "
+                "expected a line that starts with format, comment, obj_info, element, property or end_header, "
                 f"found {shown(*words)}."
             )
 

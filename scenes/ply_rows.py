@@ -45,7 +45,7 @@ def _text_rows(header: Header, wanted: Wanted) -> Iterator[tuple[Element, str, R
         for index in range(element.count if element.properties else 0):
             line, words = next(lines, (0, []))
             if not words:
-                raise MeshFileError(f"ends before its row {_row_name(element, index)}, of {element.count}.")
+                raise MeshFileError(f"ends before {_row_name(element, index)}, a row that its header states.")
             place = f"line {line}: {_row_name(element, index)}"
             try:
                 row = _text_row(words, element, names)
@@ -115,7 +115,7 @@ class _Cursor:
     def skip_numbers(self, code: str, count: int) -> None:
         """Raises MeshFileError if fewer are left."""
         if not self.skip(count * struct.calcsize("<" + code)):
-            raise MeshFileError("the file ends before all of its values.")
+            raise MeshFileError("expected more values, found the end of the file.")
 
     def take(self, code: str, count: int) -> tuple[float, ...]:
         """The next numbers. Raises MeshFileError if fewer are left."""
@@ -144,7 +144,7 @@ def _rows_of_one_size(cursor: _Cursor, element: Element, names: frozenset[bytes]
     start = cursor.position
     if not cursor.skip(element.count * form.size):
         whole_rows = (len(cursor.body) - start) // form.size
-        raise MeshFileError(f"ends before its row {_row_name(element, whole_rows)}, of {element.count}.")
+        raise MeshFileError(f"ends before all of {_row_name(element, whole_rows)}, a row that its header states.")
     if not names:
         return
     columns = [(i, property_.name) for i, property_ in enumerate(element.properties) if property_.name in names]
