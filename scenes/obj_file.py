@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 # Normals, texture coordinates, names, materials, weights of bones and how things are shown change nothing: a scene
-# states its own material. Points and curves have no area; what belongs to free-form geometry makes no surface without `surf`.
+# states its own material. Points and curves have no area; what belongs to free-form geometry makes no surface without
+# `surf`.
 _READ_PAST = frozenset(
     b"vn vt vp "
     b"g s o mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj vw "

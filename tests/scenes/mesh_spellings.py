@@ -22,7 +22,7 @@ MARKS = st.sampled_from([b"", b"\xef\xbb\xbf"])
 # No bytes that end a line, in no encoding in particular.
 COMMENTS = st.binary(max_size=8).map(lambda text: text.translate(None, b"\r\n"))
 
-POINTS = st.lists(st.tuples(*[st.floats(-1e12, 1e12)] * 3), min_size=3, max_size=6)
+COORDINATES = st.floats(-1e12, 1e12)
 
 
 @dataclass(frozen=True)
@@ -39,9 +39,9 @@ class Polygons:
 
 
 @st.composite
-def polygons(draw: DrawFn) -> Polygons:
+def polygons(draw: DrawFn, coordinates: SearchStrategy[float] = COORDINATES) -> Polygons:
     """A few points and faces."""
-    points = draw(POINTS)
+    points = draw(st.lists(st.tuples(coordinates, coordinates, coordinates), min_size=3, max_size=6))
     corners = st.lists(st.sampled_from(range(len(points))), min_size=3, unique=True)
     return Polygons(points, draw(st.lists(corners, min_size=1, max_size=3)))
 

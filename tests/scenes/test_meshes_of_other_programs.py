@@ -52,7 +52,7 @@ OBJ_KINDS = {
     "exponents, signs and bare points": "v -1e0 -.1E+1 +0\nv +1. -1.e0 0e9\nv 10e-1 1 .0\nv -1.000 001 0e-5\n" + F,
     "no line end at the end": V + F.rstrip(),
     "numbers that count backwards": V + "f -4 -3 -2\nf -4/-1 -2//-1 -1/-1/-1\n",
-    "a quadrilateral": V + "f 1/1/1 2/2/1 3/3/1 4/4/1 \n",
+    "a quadrilateral": V + "vt 0 0\nvn 0 0 1\n" * 4 + "f 1/1/1 2/2/1 3/3/1 4/4/1 \n",
     "groups, smoothing, materials and display": "mtllib a b.mtl\no Box 1\ng default\ns off\ns 1\nusemtl None\nmg 0\n"
     "bevel on\nc_interp off\nd_interp off\nlod 0\nshadow_obj a.obj\ntrace_obj b.obj\nusemap off\n" + V + "g\n" + F,
     "colours in comments, as ZBrush has them": "#MRGB ffaabbccffaabbcc\n" + V + F,
