@@ -13,7 +13,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from raytruth.scenes.triangle_lists import MeshFileError
-from raytruth.scenes.wording import quoted
+from raytruth.scenes.wording import LONGEST_QUOTE, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 _UTF_8_MARK = b"\xef\xbb\xbf"
 _UTF_16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 
-_LINE = re.compile(rb"([^\r\n]*)(?:\r\n?|\n)|([^\r\n]+)\Z")
+_LINE_END = re.compile(rb"\r\n?|\n")
+# A file may have 64 million lines, which would take gigabytes all at once.
+_BYTES_SPLIT_AT_ONCE = 2**16
 _NUMBER = re.compile(rb"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?")
 # Ten digits hold every 32-bit integer, and so every number of a vertex.
 _WHOLE_NUMBER = re.compile(rb"[-+]?[0-9]{1,10}")
@@ -39,14 +41,19 @@ def without_byte_order_mark(content: bytes) -> bytes:
 
 
 def lines_of(content: bytes) -> Iterator[bytes]:
-    """Each line without its end, which is LF, CR LF or CR. Lazy, since a file may have millions of lines."""
-    for match in _LINE.finditer(content):
-        yield match[1] if match[1] is not None else match[2]
+    """Each line without its end, which is LF, CR LF or CR."""
+    start = 0
+    while start < len(content):
+        line_end = _LINE_END.search(content, start + _BYTES_SPLIT_AT_ONCE)
+        end = line_end.end() if line_end else len(content)
+        yield from content[start:end].splitlines()
+        start = end
 
 
 def shown(*words: bytes) -> str:
-    """Words of a file in quotes, for a sentence."""
-    return quoted(b" ".join(words).decode("utf-8", "replace"))
+    """Words of a file in quotes, for a sentence; no more of them than a quote shows."""
+    longest = 4 * (LONGEST_QUOTE + 1)  # four bytes a character
+    return quoted(b" ".join(word[:longest] for word in words[:longest])[:longest].decode("utf-8", "replace"))
 
 
 def number(word: bytes) -> float:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from raytruth.scenes.mesh_text import lines_of, number, shown, without_byte_order_mark
 from raytruth.scenes.triangle_lists import (
+    LARGEST_FACE_COUNT,
     MeshFileError,
     TriangleLists,
     check_coordinate,
@@ -51,6 +52,9 @@ _CONTINUES = re.compile(rb"(?<![\x80-\xff])\\\Z")
 
 # v, v/vt, v//vn or v/vt/vn, of which either slot may be empty; no file within the size limit needs ten digits.
 _CORNER = re.compile(rb"([-+]?[0-9]{1,10})(?:/(?:[-+]?[0-9]{1,10})?){0,2}")
+
+# One more than the largest face has with its f; what is left over stays one word of a statement that is too long.
+_MOST_WORDS = 1 + LARGEST_FACE_COUNT + 2
 
 # x y z alone, with a weight, with a colour, with a colour and its opacity.
 _VERTEX_LENGTHS = (3, 4, 6, 7)
@@ -94,7 +98,7 @@ def _statements(content: bytes) -> Iterator[tuple[int, list[bytes]]]:
         parts.append(text[:-1] if continued else stated)
         if continued:
             continue
-        words = b" ".join(parts).split()
+        words = b" ".join(parts).split(None, _MOST_WORDS)
         first_line = line + 1 - len(parts)
         parts = []
         if words:

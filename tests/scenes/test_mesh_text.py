@@ -8,7 +8,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from raytruth.scenes.mesh_text import lines_of, nearest_float32, number, whole_number, without_byte_order_mark
+from raytruth.scenes import mesh_text
+from raytruth.scenes.mesh_text import lines_of, nearest_float32, number, shown, whole_number, without_byte_order_mark
 from raytruth.scenes.triangle_lists import MeshFileError
 from tests.scenes.mesh_spellings import spellings
 
@@ -108,6 +109,19 @@ def test_lines_end_at_lf_cr_lf_and_cr_and_nowhere_else(content: bytes) -> None:
     normalised = content.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     expected = normalised.split(b"\n")
     assert list(lines_of(content)) == (expected if expected[-1] else expected[:-1])
+
+
+@given(st.integers(1, 5), st.lists(st.sampled_from([b"\r", b"\n", b"\r\n", b"ab"])).map(b"".join))
+def test_where_a_file_is_cut_to_be_split_shows_in_no_line(size: int, content: bytes) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(mesh_text, "_BYTES_SPLIT_AT_ONCE", size)
+        assert list(lines_of(content)) == content.splitlines()
+
+
+def test_a_quote_is_as_long_as_a_sentence_bears() -> None:
+    assert shown(b"v", *[b"1"] * 100) == f"'v{' 1' * 19} …'"
+    assert shown("ä".encode() * 100) == f"'{'ä' * 40}…'"
+    assert shown("😀".encode() * 41) == f"'{'😀' * 40}…'"
 
 
 def test_the_mark_of_utf_8_is_taken_off_and_that_of_utf_16_refused() -> None:

@@ -116,6 +116,11 @@ def test_a_statement_is_named_by_its_first_line() -> None:
         read_obj(b"# ends with a path C:\\\r\nf 1 \\\r\n 2 \\\r\n x\r\n")
 
 
+def test_a_face_with_too_many_corners_is_refused_before_they_are_read() -> None:
+    with pytest.raises(MeshFileError, match="expected at most 500000 triangles"):
+        read_obj(b"f" + b" x" * (triangle_lists.LARGEST_FACE_COUNT + 9))
+
+
 def test_too_many_faces_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(triangle_lists, "LARGEST_FACE_COUNT", 2)
     read_obj((SQUARE + "f 1 2 3 4").encode())
