@@ -180,7 +180,12 @@ def _mesh_problems(mesh: Mesh, where: str) -> Iterator[Problem]:
                 f"expected vertex numbers from 0 to {len(mesh.vertices) - 1}, found {max(face)}.",
             )
         elif _has_no_area(*(mesh.vertices[vertex] for vertex in face)):
-            yield f"{where}.faces[{index}]", "expected three vertices that span an area, found them on one line."
+            what = "expected three vertices that span an area, found them on one line."
+            if mesh.file is None:
+                yield f"{where}.faces[{index}]", what
+            else:
+                of_file = f"{quoted(mesh.file)} triangle {index} of vertices {list(face)}, both counted from 0"
+                yield f"{where}.file", f"{of_file}: {what}"
 
 
 def _has_no_area(first: Vector, second: Vector, third: Vector) -> bool:
