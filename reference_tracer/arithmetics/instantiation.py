@@ -115,9 +115,11 @@ def kernel_source(
     for name in behaviour.functions:
         if name not in pruned:
             raise KeyError(f"there is no function {name} in the tracer's source to override")
-    standing_in = {name: _override(name, function) for name, function in behaviour.functions.items()}
-    for name, definition in {**standing_in, **{name: _helper(function) for name, function in helpers.items()}}.items():
-        functions[name] = _PrunedFunction(namer.visit(_FeaturePruner(features).prune(definition)))
+    for name, override in behaviour.functions.items():
+        functions[name] = _PrunedFunction(namer.visit(_FeaturePruner(features).prune(_override(name, override))))
+    for name, helper in helpers.items():
+        functions[name], its_literals = _pruned_helper(helper, frozenset(features))
+        namer.names.update(its_literals)
     reached = _reachable(functions, entry_points)
     mentioned = frozenset().union(*(function.mentions for function in reached))
     parts = [ast.unparse(constant) for name, constant in constants.items() if name in mentioned]
@@ -160,6 +162,14 @@ def _pruned_functions(features: frozenset[str]) -> tuple[dict[str, _PrunedFuncti
     return pruned, namer.names
 
 
+@cache
+def _pruned_helper(function: Function, features: frozenset[str]) -> tuple[_PrunedFunction, dict[str, float]]:
+    """As above, for a helper: many kernels have the same ones."""
+    namer = _LiteralNamer({})
+    pruned = _FeaturePruner(features).prune(_override(function.__name__, function))
+    return _PrunedFunction(namer.visit(pruned)), namer.names
+
+
 def _bare(function: ast.FunctionDef) -> ast.FunctionDef:
     """Without docstring and annotations, whose names the kernel does not know."""
     bare: ast.FunctionDef = ast.parse(ast.unparse(function)).body[0]  # type: ignore[assignment]
@@ -178,12 +188,6 @@ def _override(name: str, override: Callable[..., object]) -> ast.FunctionDef:
     bare.name = name
     bare.decorator_list = []
     return bare
-
-
-@cache
-def _helper(function: Function) -> ast.FunctionDef:
-    """Read once, since many kernels have the same helpers. Not to be changed."""
-    return _override(function.__name__, function)
 
 
 def _functions_and_constants(module: ast.Module) -> tuple[dict[str, ast.FunctionDef], dict[str, ast.Assign]]:

@@ -10,6 +10,7 @@ from flint import arb
 
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64, make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, ball_arithmetic, every_outcome
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.rendering import first_hits, prepare, render
 from raytruth.reference_tracer.tables import build_tables
 from raytruth.scenes.features import Feature
@@ -157,7 +158,7 @@ def test_another_override_of_the_same_function_is_another_compiled_kernel(
     monkeypatch.setenv("RAYTRUTH_CACHE", str(tmp_path))
     scene = small_scene(lights=[lamp((0.0, 0.0, 3.0))])
     for override, value in ((half_diffuse, 0.5), (quarter_diffuse, 0.25), (half_diffuse, 0.5)):
-        assert render(scene, FLOAT64, {"diffuse": override})[0, 0, 0] == value
+        assert render(scene, FLOAT64, Behaviour({"diffuse": override}))[0, 0, 0] == value
     assert len(list((tmp_path / "kernels").glob("kernel_*.py"))) == 2
 
 

@@ -8,9 +8,6 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 
-from raytruth.comparisons.error_models.behaviours import behaviour_of
-from raytruth.comparisons.error_models.error_model import ErrorModel, Rasterisation, RayOffset
-from raytruth.comparisons.error_models.helpers import HELPERS
 from raytruth.reference_tracer.arithmetics.arithmetic import (
     FLOAT,
     FLOAT32,
@@ -132,26 +129,6 @@ def test_constants_are_made_numbers_of_another_type_lists_too() -> None:
     singles = behaviour.with_numbers(np.float32)
     assert singles == Behaviour({"is_shadowed": no_shadows}, constants={"one": 1.0, "several": [2.0, 3.0]}, name="mine")
     assert {type(number) for number in (singles.constants["one"], *singles.constants["several"])} == {np.float32}
-
-
-@pytest.mark.clause("VER-2")
-def test_the_behaviour_of_an_error_model_is_what_all_its_parts_change() -> None:
-    scene = library_scene("single-triangle", 4, 3)
-    assert behaviour_of(ErrorModel("", 24), scene).functions == {}
-    offset = RayOffset(absolute=0.25, is_bound=True)
-    model = ErrorModel("", 24, offset, triangle_test="pluecker", triangle_points="barycentric")
-    behaviour = behaviour_of(model, scene)
-    assert set(behaviour.functions) == {"departure", "is_shadowed", "triangle_distance", "surface_at"}
-    assert set(HELPERS.names) < set(behaviour.names)
-    drawn = behaviour_of(ErrorModel("", 24, rasterisation=Rasterisation(8, 24, 22)), scene)
-    assert {"distance_to_triangle", "direct_light"} < set(drawn.functions)
-
-
-@pytest.mark.clause("VER-2")
-def test_an_error_model_of_which_two_parts_change_one_function_is_refused() -> None:
-    model = ErrorModel("", 24, triangle_points="barycentric", rasterisation=Rasterisation(8, 24, 22))
-    with pytest.raises(ValueError, match=r"^points on triangles and .* both say what surface_at is$"):
-        behaviour_of(model, library_scene("single-triangle", 4, 3))
 
 
 OF_BALLS = {

@@ -25,7 +25,7 @@ def test_a_variant_gives_the_same_pictures_of_benign_scenes(name: str) -> None:
     for scene_name in SCENES:
         scene = library_scene(scene_name, 16, 12)
         expected = render(scene, FLOAT).astype(float)
-        image = render(scene, FLOAT, VARIANTS[name]).astype(float)
+        image = render(scene, FLOAT, Behaviour(VARIANTS[name])).astype(float)
         # Rounding, 1e-16, grown by a path of a few bounces off curved surfaces: far below what any picture shows.
         np.testing.assert_allclose(image, expected, rtol=1e-11, atol=1e-12 * expected.max())
 
