@@ -20,7 +20,6 @@ from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.embree import adapter
 from raytruth.comparisons.renderers.embree.adapter import embree, embree_robust
 from raytruth.comparisons.renderers.embree.job import RESULT_FILE
-from raytruth.comparisons.renderers.protocol import Renderer
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.rendering import render
 from raytruth.scenes.library import library_names, open_scene
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from raytruth.comparisons.records.results import Cell
+    from raytruth.comparisons.renderers.protocol import Renderer
 
 pytestmark = pytest.mark.clause("REN-4")
 
