@@ -125,7 +125,7 @@ def test_the_square_is_read_from_ply(kind: str) -> None:
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
-@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r\r\n", "\r"])
 @pytest.mark.parametrize("count", [4, 10])
 def test_the_square_is_read_from_binary_ply(order: str, line_end: str, count: int) -> None:
     encoding = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
