@@ -47,9 +47,6 @@ _REFUSED = {
 # Old libraries of C write numbers that are not finite as 1.#INF and -1.#IND, which is no number before a comment.
 _COMMENT = re.compile(rb"(?<![0-9]\.)#")
 
-# A backslash after a byte that is not ASCII is the second half of a Japanese or Chinese character.
-_CONTINUES = re.compile(rb"(?<![\x80-\xff])\\\Z")
-
 # v, v/vt, v//vn or v/vt/vn, of which either slot may be empty; no file within the size limit needs ten digits.
 _CORNER = re.compile(rb"([-+]?[0-9]{1,10})(?:/(?:[-+]?[0-9]{1,10})?){0,2}")
 
@@ -89,12 +86,15 @@ def _statements(content: bytes) -> Iterator[tuple[int, list[bytes]]]:
     """(number of the first line, words) of each statement; a backslash at the end of a line joins the next one."""
     parts: list[bytes] = []
     for line, text in enumerate(lines_of(content), start=1):
+        if not (text or parts):
+            continue
         comment = _COMMENT.search(text) if b"#" in text else None
         # A comment ends with its line: that its last character is a backslash, as of a path, means nothing.
         stated = text[: comment.start()] if comment else text
         if parts and parts[-1][-1:].strip() and stated[:1].strip():
             raise MeshFileError(f"line {line}: expected a blank before what continues line {line - 1}; add one.")
-        continued = not comment and _CONTINUES.search(text) is not None
+        # A backslash after a byte that is not ASCII is the second half of a Japanese or Chinese character.
+        continued = not comment and text.endswith(b"\\") and text[-2:-1] < b"\x80"
         parts.append(text[:-1] if continued else stated)
         if continued:
             continue

@@ -51,7 +51,8 @@ def test_a_decimal_number_is_the_nearest_double(word: bytes) -> None:
 @given(FLOAT32.filter(lambda value: 0 < value < 1e30), st.integers(-2, 2))
 @example(1.0, 0)
 @example(1.0, 1)
-@example(2.0**-149, 1)
+@example(2.0**-149, -1)
+@example(2.0**-148, 1)
 @example(2.0**-126, -1)
 def test_beside_a_tie_a_number_is_the_nearest_of_binary32(below: float, nudge: int) -> None:
     bits = bits_of(below, "f", "I")

@@ -46,6 +46,7 @@ OBJ_KINDS = {
     "CR LF line ends": (V + F).replace("\n", "\r\n"),
     "a continued statement": V.replace(" 1 -1", " 1 \\\n -1") + "f 1 2 \\\n3\nf 1 \\\n\t3 \\\n 4",
     "a continued statement with CR LF": (V + "f 1 2 \\\n3 \\\n4\n").replace("\n", "\r\n"),
+    "a continuation onto a blank line": V + "f 1 2 3 \\\n\nf 1 3 4 \\\n\n",
     "a comment that ends in a backslash": "# C:\\models\\\n" + V + F,
     "a comment right behind a statement": V + "f 1 2 3# half\nf 1 3 4#",
     "tabs, form feeds and blanks at the ends of lines": V.replace(" ", "\t") + "\f\n \n  f\t1  2 3 \nf 1 3 4\t\n\n",
@@ -125,7 +126,7 @@ def test_the_square_is_read_from_ply(kind: str) -> None:
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
-@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r\r\n", "\r"])
 @pytest.mark.parametrize("count", [4, 10])
 def test_the_square_is_read_from_binary_ply(order: str, line_end: str, count: int) -> None:
     encoding = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
