@@ -39,6 +39,9 @@ class FeasibleSet:
     low: NDArray[np.float64]
     """Shape (height, width, K, 3)."""
     high: NDArray[np.float64]
+    due: NDArray[np.bool_]
+    """Shape (height, width, K): whether the renderer's arithmetic alone leads to the outcome. The others come from a
+    shortcut that it declares, and may be far from the truth."""
     merged: NDArray[np.bool_]
     """Shape (height, width): whether there were too many outcomes to tell apart, so that one box holds several."""
     hit_primitives: NDArray[np.int64]
@@ -46,6 +49,8 @@ class FeasibleSet:
     hit_low: NDArray[np.float64]
     """Shape (height, width, L, 7): distance, position, normal."""
     hit_high: NDArray[np.float64]
+    hit_due: NDArray[np.bool_]
+    """As `due`, shape (height, width, L)."""
 
     @property
     def outcomes(self) -> NDArray[np.int64]:
@@ -53,11 +58,16 @@ class FeasibleSet:
         counts: NDArray[np.int64] = (~np.isnan(self.low[..., 0])).sum(axis=2)
         return counts
 
-    def hull(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The least box that holds all outcomes of each pixel; NaN where there are none; shape (height, width, 3)."""
+    def hull(self, *, due_only: bool = False) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The least box that holds all outcomes of each pixel; NaN where there are none; shape (height, width, 3).
+
+        Or all outcomes that are due; every pixel with an outcome has one of these.
+        """
+        counted = self.due[..., np.newaxis] if due_only else True
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RuntimeWarning)  # of pixels without outcomes
-            return np.nanmin(self.low, axis=2), np.nanmax(self.high, axis=2)
+            low, high = (np.where(counted, end, np.nan) for end in (self.low, self.high))
+            return np.nanmin(low, axis=2), np.nanmax(high, axis=2)
 
 
 UNUSED = -2

@@ -198,7 +198,7 @@ def _pixel_evidence(truth: Image, tolerances: Image) -> PixelEvidence:
     low[tolerances < 0] = np.nan
     merged = np.zeros((SIDE, SIDE), dtype=bool)
     merged[CAPPED_PIXEL[1], CAPPED_PIXEL[0]] = True
-    return PixelEvidence(low, low + np.float32(4e-6), nearest, merged)
+    return PixelEvidence(low, low + np.float32(4e-6), nearest, merged, np.zeros_like(merged))
 
 
 def _folder(names: Names) -> str:
