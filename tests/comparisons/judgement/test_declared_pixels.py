@@ -20,7 +20,7 @@ from tests.comparisons.judgement.boxes import boxes, hits
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-pytestmark = pytest.mark.clause("VER-2")
+pytestmark = pytest.mark.clause("VER-14")
 
 DUE, SHORTCUT = (0.4, 0.5), (0.0, 0.1)
 FEASIBLE = boxes([DUE, SHORTCUT], [DUE], declared=frozenset({SHORTCUT}))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from raytruth.comparisons.measures.visibility import differs_visibly
 from raytruth.comparisons.records.srgb import srgb_decoded
 
-pytestmark = pytest.mark.clause("VER-2")
+pytestmark = pytest.mark.clause("VER-14")
 
 CODES = st.integers(0, 255)
 
