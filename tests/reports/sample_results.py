@@ -64,9 +64,9 @@ def sample_document(directory: Path) -> dict[str, Any]:
                 "incomparable",
                 "the scene has specular light paths (E S D L), which direct does not sum",
             ),
+            _declared(directory, ("whitted-1980", "povray", "trace")),
             _crashed(directory, ("whitted-1980", "mitsuba", "path")),
             _failing(directory, ("whitted-1980", "closed_form", "local"), waived=WAIVED),
-            _declared(directory, (ODD_NAME, "mitsuba", "direct")),
             _without_image(directory, (ODD_NAME, "mitsuba", "path")),
         ],
     }

@@ -127,7 +127,7 @@ def test_capped_pixels_are_summed_over_all_judged_cells(results: Results, merged
     if merged + unjudged == 0:
         assert text == f"Capped pixels: none of 32,768 pixels in {len(judged)} judged cells."
     else:
-        share = 100 * (merged + unjudged) / 28_672
+        share = 100 * (merged + unjudged) / 32_768
         assert text.startswith(f"Capped pixels: {merged + unjudged} of 32,768 pixels")
         assert f"({share:.3g} %)" in text
         assert text.endswith(f": {merged} in a box of several outcomes, {unjudged} not judged.")
