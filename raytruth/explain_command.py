@@ -7,10 +7,10 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from raytruth.api import images
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene, parse_pixel
 from raytruth.output import print_json
-from raytruth.reference_tracer import explanation
 from raytruth.reference_tracer.explanation import ExplanationError
 from raytruth.reports.explanation_text import explanation_text
 
@@ -38,7 +38,7 @@ def explain(
     """
     x, y = parse_pixel(pixel)
     try:
-        tree = explanation.explain(open_scene(scene), x, y)
+        tree = images.explain(open_scene(scene), x, y)
     except ExplanationError as error:
         raise UsageError(str(error)) from error
     if as_json:

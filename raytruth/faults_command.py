@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from raytruth.comparisons.kills.kill_matrix import SceneKills
+    from raytruth.scenes.scene import Scene
 
 FAILED = 1
 
@@ -57,11 +58,9 @@ def faults(
     """
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
-    sources = scenes or library_names()
-    for source in sources:
-        open_scene(source)
+    opened = [open_scene(source) for source in scenes or library_names()]
     start = time.perf_counter()
-    kills = _run(sources, out, jobs or os.cpu_count() or 1, fresh=fresh)
+    kills = _run(opened, out, jobs or os.cpu_count() or 1, fresh=fresh)
     results = kill_results(kills, time.perf_counter() - start)
     write_kill_results(out, results)
     page = write_kill_report(out)
@@ -76,18 +75,18 @@ def faults(
     return FAILED if results.survivors or results.false_alarms else 0
 
 
-def _run(sources: Sequence[str], out: Path, jobs: int, *, fresh: bool) -> list[SceneKills]:
+def _run(scenes: Sequence[Scene], out: Path, jobs: int, *, fresh: bool) -> list[SceneKills]:
     """All scenes, saying how far it has come."""
     console = Console(stderr=True)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     done: list[SceneKills] = []
     with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
-        task = bar.add_task("Judging faults and variants", total=len(sources))
-        for kills in run_kills(sources, out, jobs, fresh=fresh):
+        task = bar.add_task("Judging faults and variants", total=len(scenes))
+        for kills in run_kills(scenes, out, jobs, fresh=fresh):
             done.append(kills)
             bar.advance(task)
             if not console.is_terminal:
                 failing = sum(cell.fails for cell in kills.cells)
-                line = f"[{len(done)}/{len(sources)}] {kills.scene}: {failing} of {len(kills.cells)} fail"
+                line = f"[{len(done)}/{len(scenes)}] {kills.scene}: {failing} of {len(kills.cells)} fail"
                 print(line, file=sys.stderr, flush=True)
     return done

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from raytruth.api.scenes import load_scene
 from raytruth.errors import UsageError
-from raytruth.scenes import library
 from raytruth.scenes.camera import LARGEST_SIDE
 from raytruth.scenes.loading import SceneError
 
@@ -24,9 +24,9 @@ _WHOLE_NUMBER = r"\d{1,9}"
 def open_scene(name_or_path: str) -> Scene:
     """A scene of the library, or a scene file. Raises UsageError with every problem that it has."""
     try:
-        return library.open_scene(name_or_path)
+        return load_scene(name_or_path)
     except SceneError as error:
-        raise UsageError("\n".join(error.problems)) from error
+        raise UsageError(str(error)) from error
 
 
 def parse_pixel(text: str) -> tuple[int, int]:

@@ -5,18 +5,18 @@ from __future__ import annotations
 import os
 import time
 from pathlib import Path  # noqa: TC003 - cyclopts reads annotations at run time
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
+from raytruth.api import images
+from raytruth.api.images import MOST_SAMPLES, ArithmeticName
 from raytruth.comparisons.records.image_files import ImageError, write_image
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene, resized
 from raytruth.output import print_json, progress
-from raytruth.reference_tracer import rendering
-from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64
 from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.reports.pictures import tone_picture
 
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 SUFFIXES = (".exr", ".png")
-# 4,096 rays a pixel: more shows no difference in 8 bits, and is a typing error rather than a wish.
-MOST_SAMPLES = 64
 
 
 def render(
@@ -33,7 +31,7 @@ def render(
     /,
     *,
     out: Annotated[Path, Parameter(name=["--out", "-o"])],
-    arithmetic: Literal["float", "float64", "float32"] = "float64",
+    arithmetic: ArithmeticName = "float64",
     size: str | None = None,
     samples: Annotated[int, Parameter(validator=Number(gte=1, lte=MOST_SAMPLES))] = 1,
     as_json: AsJson = False,
@@ -57,14 +55,13 @@ def render(
     """
     _check_destination(out)
     opened = resized(open_scene(scene), size)
-    chosen = {"float": FLOAT, "float64": FLOAT64, "float32": FLOAT32}[arithmetic]
     what = f"{opened.name} at {opened.camera.width}x{opened.camera.height} in {arithmetic}"
     start = time.perf_counter()
     try:
         with progress(f"Rendering {what}"):
-            image = rendering.render(opened, chosen, samples=samples)
-    except ArithmeticError as error:  # only Python floats raise, as for a light in the very point that it lights
-        raise UsageError(f"{opened.name} has a pixel without a value in Python floats: {error}.") from error
+            image = images.render(opened, arithmetic, samples)
+    except ArithmeticError as error:  # only Python floats raise
+        raise UsageError(str(error)) from error
     seconds = time.perf_counter() - start
     with np.errstate(over="ignore"):  # what float32 cannot hold is infinite in the file
         _write(out, image.astype(np.float32))

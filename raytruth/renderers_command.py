@@ -9,6 +9,7 @@ from rich.padding import Padding
 from rich.text import Text
 
 from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers
+from raytruth.comparisons.renderers.protocol import shown_error_model, versions_in_words, why_unavailable
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time
 from raytruth.output import print_json, progress
@@ -52,6 +53,7 @@ def _clauses(record: dict[str, Any]) -> dict[str, str]:
     """What is told of a renderer, by its heading."""
     return {
         "version": record["version"] or "missing",
+        "derived for": record["derived_for"],
         "light paths": "; ".join(f"{name} {paths}" for name, paths in record["integrators"].items()),
         "expresses": f"{record['scenes']} library scenes; {', '.join(record['features'])}",
         "error model": "; ".join(f"{subject}: {clause}" for subject, clause in record["error_model"].items()),
@@ -77,7 +79,8 @@ def _record(renderer: Renderer) -> dict[str, Any]:
     return {
         "name": renderer.name,
         "version": version,
-        "available": version is not None,
+        "available": why_unavailable(renderer, version) is None,
+        "derived_for": versions_in_words(renderer),
         "integrators": {
             # A limit of `depth` bounces reads as a letter, as in {0,n}.
             integrator.name: integrator.light_paths.format(depth="n")
@@ -88,6 +91,6 @@ def _record(renderer: Renderer) -> dict[str, Any]:
         # It refuses every scene with a feature that it lacks: those of the others are what it can express.
         "scenes": len(expressible),
         "features": sorted(feature.lower().replace("_", " ") for feature in features),
-        "error_model": renderer.error_model.in_words(),
+        "error_model": shown_error_model(renderer, version).in_words(),
         "install": renderer.install,
     }

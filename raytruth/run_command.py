@@ -12,12 +12,14 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from raytruth.comparisons.matrix.matrix import Plan, plan_run, run_plan
+from raytruth.comparisons.matrix.plan import Plan, plan_run
 from raytruth.comparisons.matrix.quick_suite import write_quick_suite
 from raytruth.comparisons.matrix.results_directory import only_run_in, with_metrics, write_results
+from raytruth.comparisons.matrix.run import run_plan
 from raytruth.comparisons.matrix.waivers import WaiverError, apply_waivers, load_waivers
 from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers
+from raytruth.comparisons.renderers.protocol import why_unavailable
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene
 from raytruth.output import progress
@@ -88,25 +90,29 @@ def run(
     if quick and scenes:
         raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
     sources = write_quick_suite(out) if quick else scenes or library_names()
-    opened = _distinct([open_scene(source) for source in sources])
+    opened = _opened(sources)
     with only_run_in(out):
         with progress("Looking for the renderers"):
-            plan = plan_run(sources, list(selected), out, fresh=fresh)
+            plan = plan_run(opened, list(selected.values()), out, fresh=fresh)
         try:
             cells = _run(plan, out, jobs or os.cpu_count() or 1)
             with progress("Measuring global differences"):
                 cells = with_metrics(out, cells)
         except KeyboardInterrupt:
             # What is finished can be shown, and the next run goes on from there.
-            finished = plan_run(sources, list(selected), out, fresh=False).settled
+            finished = plan_run(opened, list(selected.values()), out, fresh=False).settled
             waived, _ = apply_waivers(known_failures, finished, plan.versions)
-            write_results(out, _command(), opened, _with_versions(selected, plan), waived)
+            write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), waived)
             raise
         cells, unmatched = apply_waivers(known_failures, cells, plan.versions)
-        results = write_results(out, _command(), opened, _with_versions(selected, plan), cells)
+        results = write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), cells)
         report = write_html_report(out, unless_current=True)
     _show(results, report, as_json)
-    missing = [renderer for name, renderer in required.items() if plan.versions[name] is None]
+    missing = {
+        name: reason
+        for name, it in required.items()
+        if (reason := why_unavailable(it, plan.versions[name])) is not None
+    }
     return _status(cells, missing, unmatched)
 
 
@@ -126,11 +132,14 @@ def _split(names: Iterable[str]) -> list[str]:
     return [part.strip() for name in names for part in name.split(",") if part.strip()]
 
 
-def _distinct(opened: list[Scene]) -> list[Scene]:
-    names = [scene.name for scene in opened]
-    for name in names:
-        if names.count(name) > 1:
-            raise UsageError(f"There are two scenes called {name!r}: give each scene file a name of its own.")
+def _opened(sources: Iterable[str]) -> dict[str, Scene]:
+    """Each scene by what names it on the command line. Raises UsageError where two have the same name."""
+    opened: dict[str, Scene] = {}
+    for source in sources:
+        scene = open_scene(source)
+        if scene.name in {known.name for known in opened.values()}:
+            raise UsageError(f"There are two scenes called {scene.name!r}: give each scene file a name of its own.")
+        opened[source] = scene
     return opened
 
 
@@ -162,9 +171,9 @@ def _show(results: Results, report: Path, as_json: bool) -> None:
         print_matrix(results, Console(), report)
 
 
-def _status(cells: Sequence[Cell], missing: Sequence[Renderer], unmatched: Sequence[str]) -> int:
-    for renderer in missing:
-        print(f"raytruth: {renderer.name} is required and not installed: {renderer.install}", file=sys.stderr)
+def _status(cells: Sequence[Cell], missing: Mapping[str, str], unmatched: Sequence[str]) -> int:
+    for name, reason in missing.items():
+        print(f"raytruth: {name} is required and {reason}", file=sys.stderr)
     for sentence in unmatched:
         print(f"raytruth: {sentence}", file=sys.stderr)
     bad = any(cell.verdict in {Verdict.FAIL, Verdict.ERROR} and cell.waived is None for cell in cells)

@@ -16,12 +16,13 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from raytruth.api import images
 from raytruth.comparisons.records.certified_files import write_certified_image
 from raytruth.comparisons.records.image_files import ImageError
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene, resized
 from raytruth.output import print_json
-from raytruth.reference_tracer.certified_image import certified_image, largest_value
+from raytruth.reference_tracer.certified_image import largest_value
 from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.scenes.library import library_names
 
@@ -128,7 +129,7 @@ def _with_progress(scene: Scene, jobs: int, *, fresh: bool) -> CertifiedImage:
         task = bar.add_task(what, total=None)
         if not console.is_terminal:
             print(f"{what} …", file=sys.stderr, flush=True)
-        return certified_image(
+        return images.truth(
             scene, jobs=jobs, fresh=fresh, progress=lambda done, total: bar.update(task, completed=done, total=total)
         )
 

@@ -117,24 +117,24 @@ class Certifier:
 
 
 class _Evaluator:
-    """A scene's kernel at one precision, which is set while it runs: python-flint has one for the whole process."""
+    """A scene's kernel at one precision, which is in force while it runs."""
 
     def __init__(self, scene: Scene, bits: int, decisions: Decisions) -> None:
-        self.bits = bits
-        with ctx.workprec(bits):
-            self.prepared = prepare(scene, ball_arithmetic(bits, decisions))
+        self.arithmetic = ball_arithmetic(bits, decisions)
+        self.prepared = prepare(scene, self.arithmetic)
+        with self.arithmetic.in_force():
             self.frame = self.prepared.kernel.camera_frame(self.prepared.data)
 
     def enclosure(self, column: int, line: int) -> Enclosure:
         """The colour through the centre of a pixel."""
-        with ctx.workprec(self.bits):
+        with self.arithmetic.in_force():
             center = (arb(column + 0.5), arb(line + 0.5))
             color = self.prepared.kernel.radiance_at(self.prepared.data, self.frame, *center)
             return enclosure_of(color)
 
     def primary_ray(self, column: int, line: int) -> tuple[Color, Color]:
         """Origin and unit direction, rounded to floats."""
-        with ctx.workprec(self.bits):
+        with self.arithmetic.in_force():
             ray = self.prepared.kernel.primary_ray(self.frame, arb(column + 0.5), arb(line + 0.5))
         (x, y, z), (dx, dy, dz) = ([float(part.mid()) for part in vector] for vector in ray)
         return (x, y, z), (dx, dy, dz)

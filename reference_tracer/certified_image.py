@@ -33,6 +33,15 @@ if TYPE_CHECKING:
 # A second or so of work, so that little is lost when a run is interrupted, and no process is left alone for long.
 PIXELS_IN_A_BAND = 2048
 
+TRUTH_ROOMS = (
+    "scenes",
+    "reference_tracer",
+    "reference_tracer/arithmetics",
+    "reference_tracer/source",
+    "reference_tracer/storage",
+)
+"""What an enclosure depends on: how a scene is read, what it says, and how that is evaluated."""
+
 Pixel = tuple[int, int]
 """Column and line."""
 
@@ -108,11 +117,15 @@ def collect_garbage_rarely() -> None:
     gc.set_threshold(100_000)
 
 
-def _bands(scene: Scene) -> list[_Band]:
+def truth_key(scene: Scene) -> str:
+    """Of all that the certified image of a scene depends on."""
     versions = (flint.__version__, flint.__FLINT_VERSION__, np.__version__)
-    code = source_digest("scenes", "reference_tracer", without=("scenes/exporters",))
-    key = hashlib.sha256("\n".join((scene.model_dump_json(), code, *versions)).encode()).hexdigest()[:16]
-    folder = cache_folder() / "truth" / key
+    parts = (scene.model_dump_json(), source_digest(*TRUTH_ROOMS), *versions)
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
+
+
+def _bands(scene: Scene) -> list[_Band]:
+    folder = cache_folder() / "truth" / truth_key(scene)
     rows = max(1, PIXELS_IN_A_BAND // scene.camera.width)
     height = scene.camera.height
     return [_Band(scene, first, min(first + rows, height), folder) for first in range(0, height, rows)]

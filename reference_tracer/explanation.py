@@ -17,6 +17,7 @@ from raytruth.reference_tracer.rendering import prepare
 from raytruth.reference_tracer.source.scene_data import CAMERA_MEDIUM, MATERIAL_IS_LIT, integer_of
 from raytruth.reference_tracer.source.traversal import NOTHING
 from raytruth.scenes.lights import PointLight, PolynomialFalloff
+from raytruth.scenes.materials import Material
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,11 +35,15 @@ CHILD_KINDS: dict[str, RayKind] = {"reflected_ray": "reflected", "transmitted_ra
 RECORDED = (
     *CHILD_KINDS,
     *("nearest_hit", "surface_at", "material_of", "background_radiance", "medium_transmittance"),
-    *("local_illumination", "emission", "ambient", "attenuation", "direct_light", "diffuse", "specular"),
+    *("local_illumination", "attenuation", "direct_light"),
+    *Material.model_fields,
     *("is_occluded", "distance_to_sphere", "nearest_triangle"),
     *("snell_discriminant", "fresnel_reflectance", "split", "total_reflection_weight"),
 )
-"""The functions of the tracer whose calls are noted, where a scene's kernel has them."""
+"""The functions of the tracer whose calls are noted, where a scene's kernel has them; most terms have one."""
+
+LIGHT_TERM_KEYS = [key for key in Material.model_fields if key in LightTerm.model_fields]
+"""Terms that an explanation of a light shows as the tracer's function of the same name gives them."""
 
 
 class ExplanationError(Exception):
@@ -190,11 +195,11 @@ class _Tracing:
             shadowed=results.get("is_occluded"),
             occluder=occluder,
             occluder_object=None if occluder is None else self.objects[occluder],
-            diffuse=results.get("diffuse") if material.diffuse else None,
             highlight=results["specular"] if specular else None,
             specular_reflectance=specular.reflectance if specular else None,
             specular_model=specular.model if specular else None,
             radiance=calls[-1].result,
+            **{key: results.get(key) if key in material.terms() else None for key in LIGHT_TERM_KEYS},
         )
 
 

@@ -10,19 +10,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT64, Arithmetic, Kernel, make_kernel
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT64, Arithmetic, make_kernel
+from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
 from raytruth.reference_tracer.tables import build_tables
 from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     from numpy.typing import NDArray
 
+    from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
+    from raytruth.reference_tracer.arithmetics.kernel import Kernel
     from raytruth.reference_tracer.source.scene_data import SceneData
     from raytruth.scenes.scene import Scene
-
-    Overrides = Mapping[str, Callable[..., object]]
 
 # Bands of rows, so that threads stay busy to the end although some rows take longer than others.
 ROWS_IN_A_BAND = 16
@@ -30,7 +31,7 @@ ROWS_IN_A_BAND = 16
 
 @dataclass(frozen=True)
 class PreparedScene:
-    """A scene ready to be rendered: its kernel and its tables."""
+    """A scene ready to be rendered: its kernel and its tables. Who calls the kernel puts its arithmetic in force."""
 
     scene: Scene
     arithmetic: Arithmetic
@@ -38,19 +39,19 @@ class PreparedScene:
     data: SceneData
 
 
-def prepare(scene: Scene, arithmetic: Arithmetic = FLOAT64, overrides: Overrides | None = None) -> PreparedScene:
-    """Make the kernel that the scene requires, and its tables."""
+def prepare(scene: Scene, arithmetic: Arithmetic = FLOAT64, behaviour: Behaviour = IDEAL) -> PreparedScene:
+    """Make the kernel that the scene requires, and its tables. Raises what `make_kernel` raises."""
     features = required_features(scene)
-    return PreparedScene(
-        scene, arithmetic, make_kernel(arithmetic, features, overrides), build_tables(scene, features, arithmetic)
-    )
+    kernel = make_kernel(arithmetic, features, behaviour)
+    with arithmetic.in_force():
+        return PreparedScene(scene, arithmetic, kernel, build_tables(scene, features, arithmetic))
 
 
 def render(
-    scene: Scene, arithmetic: Arithmetic = FLOAT64, overrides: Overrides | None = None, samples: int = 1
+    scene: Scene, arithmetic: Arithmetic = FLOAT64, behaviour: Behaviour = IDEAL, samples: int = 1
 ) -> NDArray[Any]:
     """An image of shape (height, width, 3), linear RGB, row 0 on top; `samples`² rays a pixel on a regular grid."""
-    return render_prepared(prepare(scene, arithmetic, overrides), samples)
+    return render_prepared(prepare(scene, arithmetic, behaviour), samples)
 
 
 def render_prepared(prepared: PreparedScene, samples: int = 1) -> NDArray[Any]:
@@ -80,7 +81,7 @@ def primary_rays(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]
         [prepared.kernel.primary_ray(frame, column + 0.5, line + 0.5) for column in range(scene.camera.width)]
         for line in range(scene.camera.height)
     ]
-    both = np.array(rays)
+    both: NDArray[np.float64] = np.array(rays)
     return both[:, :, 0], both[:, :, 1]
 
 
@@ -89,7 +90,8 @@ def _in_bands(prepared: PreparedScene, work: Callable[[int, int], None]) -> None
     rows = prepared.scene.camera.height
     bands = [(first, min(first + ROWS_IN_A_BAND, rows)) for first in range(0, rows, ROWS_IN_A_BAND)]
     if not prepared.arithmetic.compiled:
-        work(0, rows)
+        with prepared.arithmetic.in_force():
+            work(0, rows)
         return
     work(*bands[0])  # compiles, which only one thread should do
     list(_threads().map(lambda band: work(*band), bands[1:]))

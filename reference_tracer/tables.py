@@ -11,9 +11,10 @@ import numpy as np
 
 from raytruth.reference_tracer.bounding_volume_tree import build_tree
 from raytruth.reference_tracer.source import scene_data as layout
+from raytruth.reference_tracer.source.illumination import INVERSE_SQUARE, POLYNOMIAL
 from raytruth.scenes.camera import PerspectiveCamera
+from raytruth.scenes.features import Feature
 from raytruth.scenes.lights import ConstantBackground, DirectionalLight, PointLight, PolynomialFalloff
-from raytruth.scenes.requirements import Feature
 from raytruth.scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
@@ -27,8 +28,7 @@ if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
 
 BLACK = (0.0, 0.0, 0.0)
-FALLOFF_KINDS = {"none": 0, "inverse_square": 1}
-POLYNOMIAL = 2
+FALLOFF_KINDS = {"none": 0, "inverse_square": INVERSE_SQUARE}
 CHECKERBOARD_AXES = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
 
 
@@ -129,7 +129,7 @@ def _add_local_terms(scene: Scene, features: Collection[str], tables: _Tables) -
     materials = list(scene.materials.values())
     boards: list[Checkerboard] = []
     if Feature.POINT_LIGHTS in features or Feature.DIRECTIONAL_LIGHTS in features:
-        lit = [material.diffuse is not None or material.specular is not None for material in materials]
+        lit = ["lights" in material.light_from() for material in materials]
         tables.add_integers(layout.MATERIAL_IS_LIT, lit)
     if Feature.EMISSION in features:
         radiances = [m.emission.radiance if m.emission else BLACK for m in materials]

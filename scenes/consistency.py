@@ -157,10 +157,9 @@ def _classical_terms(parts: Parts) -> Iterator[Problem]:
         if isinstance(light, PointLight) and light.falloff != "inverse_square":
             yield f"lights[{index}].falloff", "falloff other than 'inverse_square'"
     for name, material in parts.materials.items():
-        if material.ambient is not None:
-            yield place(("materials", name, "ambient")), "ambient term"
-        if material.specular is not None:
-            yield place(("materials", name, "specular")), "specular term"
+        for key, term in material.terms().items():
+            if term.is_classical:
+                yield place(("materials", name, key)), f"{key} term"
         if material.dielectric is not None and material.dielectric.reflectance is not None:
             yield place(("materials", name, "dielectric", "reflectance")), "constant reflectance and transmittance"
 
@@ -181,7 +180,12 @@ def _mesh_problems(mesh: Mesh, where: str) -> Iterator[Problem]:
                 f"expected vertex numbers from 0 to {len(mesh.vertices) - 1}, found {max(face)}.",
             )
         elif _has_no_area(*(mesh.vertices[vertex] for vertex in face)):
-            yield f"{where}.faces[{index}]", "expected three vertices that span an area, found them on one line."
+            what = "expected three vertices that span an area, found them on one line."
+            if mesh.file is None:
+                yield f"{where}.faces[{index}]", what
+            else:
+                of_file = f"{quoted(mesh.file)} triangle {index} of vertices {list(face)}, both counted from 0"
+                yield f"{where}.file", f"{of_file}: {what}"
 
 
 def _has_no_area(first: Vector, second: Vector, third: Vector) -> bool:

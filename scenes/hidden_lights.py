@@ -39,10 +39,10 @@ MOST_TRIANGLES = 256
 def may_be_hidden(scene: Scene) -> str | None:
     """In one clause which triangle may hide a light from which, as far as is proved; None if surely none does.
 
-    Only of triangles; lights count that light a diffuse or specular surface.
+    Only of triangles, and only those surfaces count that have a term which is lit by lights.
     """
     materials = [scene.materials[name] for name in material_of_each_triangle(scene)]
-    lit = [number for number, material in enumerate(materials) if material.diffuse or material.specular]
+    lit = [number for number, material in enumerate(materials) if "lights" in material.light_from()]
     if not lit or not scene.lights:
         return None
     if len(materials) > MOST_TRIANGLES:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from raytruth.scenes.materials import Material
+    from raytruth.scenes.materials import LightSource, Material
     from raytruth.scenes.scene import Scene
     from raytruth.scenes.shapes import Shape
 
@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 
 WHITTED = "ES{{0,{depth}}}(DL|e)"
 """Whitted's class; `depth` is the scene's max_depth."""
+
+LETTERS: dict[LightSource, str] = {"lights": "D", "rays": "S", "ambient light": "", "itself": ""}
+"""What a surface with such a term is within a path: nothing, if the path can only end there."""
 
 
 def whitted_class(scene: Scene) -> str:
@@ -124,11 +127,11 @@ class _Graph:
 
 
 def _surface(scene: Scene, material: Material) -> _Surface:
-    reflects = bool(material.diffuse or material.specular)
-    letters = ("S" if material.mirror or material.dielectric else "") + ("D" if reflects else "")
+    light_from = material.light_from()
+    letters = "".join(LETTERS[source] for source in light_from)
     # What a surface gives back of the ambient light needs no path to a light, as if it were emitted.
-    emits = material.emission is not None or (material.ambient is not None and any(scene.ambient_light))
-    return _Surface(letters, emits=emits, lit=reflects and bool(scene.lights))
+    emits = "itself" in light_from or ("ambient light" in light_from and any(scene.ambient_light))
+    return _Surface(letters, emits=emits, lit="lights" in light_from and bool(scene.lights))
 
 
 def _can_see(scene: Scene, i: int, j: int) -> bool:

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import ConfigDict, Discriminator, Field, Tag, model_validator
 
 from raytruth.scenes.values import Color, Direction, NonNegative, Part, Vector
 
 
 class PolynomialFalloff(Part):
     """Attenuation min(1, 1/(constant + linear·d + quadratic·d²)) at distance d (Foley, van Dam 1990, eq. 16.8)."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "anyOf": [{"properties": {key: {"exclusiveMinimum": 0}}} for key in ("constant", "linear", "quadratic")]
+        }
+    )
 
     constant: NonNegative
     linear: NonNegative

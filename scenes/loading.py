@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -18,7 +19,7 @@ from raytruth.scenes.mesh_files import with_triangles
 from raytruth.scenes.scene import Scene
 from raytruth.scenes.shapes import Mesh, Shape
 from raytruth.scenes.triangle_lists import LARGEST_FACE_COUNT, MeshFileError
-from raytruth.scenes.validation import problems_of
+from raytruth.scenes.validation import Location, problems_of
 from raytruth.scenes.values import Color
 from raytruth.scenes.wording import place, quoted
 
@@ -36,6 +37,9 @@ MOST_PROBLEMS_TOLD = 100
 MOST_MESH_FILES = 100
 # Whole numbers with more digits are absurd, and Python's time to read them grows with the square of their length.
 LONGEST_WHOLE_NUMBER = 20
+
+# UTF-8 cannot say it, so that no file could be written that holds such a text.
+_LONE_SURROGATE = re.compile("[\ud800-\udfff]")
 
 K = TypeVar("K")
 T = TypeVar("T")
@@ -73,7 +77,10 @@ def load_scene(path: Path | str) -> Scene:
     data = _parsed(path)
     if path.stem in {".", ".."}:  # `...json`: results are written to a folder of the scene's name
         raise SceneError((f"{path}: expected a file name with something before .json; rename it.",))
+    if _LONE_SURROGATE.search(path.stem):
+        raise SceneError((f"{quoted(str(path))}: expected a file name in UTF-8, since it names the scene; rename it.",))
     problems = [(place(where), "expected each key once, found it again; remove one.") for where in _repeated_keys(data)]
+    no_text = {place(where): what for where, what in _lone_surrogates(data)}
     if isinstance(data, dict) and "name" in data:
         problems.append(("name", "expected no name, since a scene is named after its file; remove it."))
     scene = None
@@ -87,6 +94,7 @@ def load_scene(path: Path | str) -> Scene:
     problems += mesh_problems
     parts = replace(parts, objects=objects)
     problems += inconsistencies(parts)
+    problems = [*no_text.items(), *(problem for problem in problems if problem[0] not in no_text)]
     if scene is None or problems:
         raise SceneError(_told(path, problems))
     return scene.model_copy(update={"name": path.stem, "objects": tuple(objects.values())})
@@ -134,16 +142,36 @@ def _whole_number(digits: str) -> float:
     return int(digits) if len(digits) <= LONGEST_WHOLE_NUMBER else float(digits)
 
 
-def _repeated_keys(data: Any) -> Iterator[tuple[str | int, ...]]:
-    pending: list[tuple[tuple[str | int, ...], Any]] = [((), data)]
-    while pending:
-        where, value = pending.pop()
+def _repeated_keys(data: Any) -> Iterator[Location]:
+    for where, value in _walk(data):
         if isinstance(value, _Object):
             for key in sorted(value.repeated):
                 yield (*where, key)
-            pending += [((*where, key), inner) for key, inner in value.items() if isinstance(inner, dict | list)]
-        elif isinstance(value, list):
-            pending += [((*where, i), inner) for i, inner in enumerate(value) if isinstance(inner, dict | list)]
+
+
+def _lone_surrogates(data: Any) -> Iterator[tuple[Location, str]]:
+    """(place, sentence) of each key or text that is no Unicode text: JSON can state half a character of UTF-16."""
+    for where, value in _walk(data):
+        texts = {(*where, key): key for key in value} if isinstance(value, dict) else {where: value}
+        for location, text in texts.items():
+            if isinstance(text, str) and _LONE_SURROGATE.search(text):
+                yield (
+                    location,
+                    (
+                        f"expected a text of Unicode characters, found {quoted(text)}, which holds half of one "
+                        "(a lone surrogate); replace it."
+                    ),
+                )
+
+
+def _walk(data: Any) -> Iterator[tuple[Location, Any]]:
+    """The place and value of each object, list and text."""
+    pending: list[tuple[Location, Any]] = [((), data)]
+    while pending:
+        where, value = pending.pop()
+        yield where, value
+        members = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+        pending += [((*where, key), inner) for key, inner in members if isinstance(inner, dict | list | str)]
 
 
 def _valid_parts(data: Any) -> Parts:

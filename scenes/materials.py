@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from raytruth.scenes.features import Feature
 from raytruth.scenes.values import SMALLEST_INDEX, Color, Coordinate, Part, Positive
 
 Index = Annotated[float, Field(allow_inf_nan=False, strict=True, ge=SMALLEST_INDEX, le=1 / SMALLEST_INDEX)]
@@ -38,33 +39,85 @@ Texture = Annotated[
 ]
 
 
-class Ambient(Part):
+LightSource = Literal["lights", "ambient light", "rays", "itself"]
+"""Where the light comes from that a term sends to the viewer: point and directional lights; the scene's ambient light;
+further rays that it sends on, reflected or refracted; or the surface itself."""
+
+
+def colors_of(texture: Texture) -> tuple[Color, ...]:
+    """The colours that it shows somewhere: one, or the two of a checkerboard."""
+    if isinstance(texture, CheckerboardColor):
+        return texture.checkerboard.even, texture.checkerboard.odd
+    return (texture,)
+
+
+class Term(Part):
+    """One term of a material, with what can be told of it alone."""
+
+    light_from: ClassVar[LightSource]
+    is_classical: ClassVar[bool]
+    """Whether only the classical equation has it, so that no radiometric scene may state it."""
+
+    def features(self) -> frozenset[Feature]:
+        """What a renderer must have to render it."""
+        raise NotImplementedError
+
+
+class Ambient(Term):
     """ka·Od: what the surface gives back of the ambient light."""
+
+    light_from = "ambient light"
+    is_classical = True
 
     reflectance: Color
 
+    def features(self) -> frozenset[Feature]:
+        """Ambient light."""
+        return frozenset({Feature.AMBIENT})
 
-class Diffuse(Part):
+
+class Diffuse(Term):
     """kd·Od, the Lambertian reflectance."""
+
+    light_from = "lights"
+    is_classical = False
 
     reflectance: Texture
 
+    def features(self) -> frozenset[Feature]:
+        """Diffuse reflection, and checkerboards for one."""
+        return _texture_features(self.reflectance) | {Feature.DIFFUSE}
 
-class Specular(Part):
+
+class Specular(Term):
     """ks·Os with an exponent: Phong's (r·v)^n or Blinn's (n·h)^n."""
+
+    light_from = "lights"
+    is_classical = True
 
     reflectance: Color
     exponent: Positive
     model: Literal["phong", "blinn"]
 
+    def features(self) -> frozenset[Feature]:
+        """The highlight of its model."""
+        return frozenset({Feature.PHONG if self.model == "phong" else Feature.BLINN})
 
-class Mirror(Part):
+
+class Mirror(Term):
     """Perfect mirror: the reflected radiance times a constant reflectance."""
+
+    light_from = "rays"
+    is_classical = False
 
     reflectance: Color
 
+    def features(self) -> frozenset[Feature]:
+        """Mirrors."""
+        return frozenset({Feature.MIRRORS})
 
-class Dielectric(Part):
+
+class Dielectric(Term):
     """Smooth transparent interface.
 
     `index_of_refraction` and `absorption` [1/length] belong to the medium inside, where the surface normal does not
@@ -73,11 +126,18 @@ class Dielectric(Part):
     constants `reflectance` (ks) and `transmittance` (kt), which belong together.
     """
 
+    light_from = "rays"
+    is_classical = False
+
     index_of_refraction: Index
     absorption: Color | None = None
     outside: str | None = None
     reflectance: Color | None = None
     transmittance: Color | None = None
+
+    def features(self) -> frozenset[Feature]:
+        """Dielectrics, and a constant split for one; whether its medium absorbs a ray is told by the whole scene."""
+        return frozenset({Feature.DIELECTRICS, *((Feature.CONSTANT_SPLIT,) if self.reflectance else ())})
 
     @model_validator(mode="after")
     def _both_constants_or_none(self) -> Dielectric:
@@ -86,10 +146,21 @@ class Dielectric(Part):
         return self
 
 
-class Emission(Part):
+class Emission(Term):
     """Radiance the surface sends out by itself, the same in all directions and on both sides."""
 
+    light_from = "itself"
+    is_classical = False
+
     radiance: Texture
+
+    def features(self) -> frozenset[Feature]:
+        """Emission, and checkerboards for one."""
+        return _texture_features(self.radiance) | {Feature.EMISSION}
+
+
+def _texture_features(texture: Texture) -> frozenset[Feature]:
+    return frozenset({Feature.CHECKERBOARD}) if isinstance(texture, CheckerboardColor) else frozenset()
 
 
 class Material(Part):
@@ -102,8 +173,22 @@ class Material(Part):
     dielectric: Dielectric | None = None
     emission: Emission | None = None
 
+    def terms(self) -> dict[str, Term]:
+        """Those that it has, each by its key."""
+        stated = ((key, getattr(self, key)) for key in type(self).model_fields)
+        return {key: term for key, term in stated if term is not None}
+
+    def light_from(self) -> frozenset[LightSource]:
+        """Where the light comes from that any of its terms sends to the viewer."""
+        return frozenset(term.light_from for term in self.terms().values())
+
+    def features(self) -> frozenset[Feature]:
+        """What a renderer must have to render each term, whatever light the scene has."""
+        return frozenset[Feature]().union(*(term.features() for term in self.terms().values()))
+
     @model_validator(mode="after")
     def _states_a_term(self) -> Material:
-        if all(getattr(self, term) is None for term in type(self).model_fields):
-            raise ValueError("expected at least one term: ambient, diffuse, specular, mirror, dielectric or emission")
+        if not self.terms():
+            *keys, last = type(self).model_fields
+            raise ValueError(f"expected at least one term: {', '.join(keys)} or {last}")
         return self

@@ -2,45 +2,19 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from typing import TYPE_CHECKING
 
+from raytruth.scenes.features import Feature
 from raytruth.scenes.lights import GradientBackground, PolynomialFalloff
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from raytruth.scenes.materials import Material
+    from raytruth.scenes.materials import Material, Term
     from raytruth.scenes.scene import Scene
 
 # A tree of boxes pays from about this many triangles on: below, the linear scan is as fast, and simpler to certify.
 TRIANGLES_WITHOUT_TREE = 16
-
-
-class Feature(StrEnum):
-    """What a renderer must have to render a scene."""
-
-    PERSPECTIVE = "PERSPECTIVE"
-    SPHERES = "SPHERES"
-    TRIANGLES = "TRIANGLES"
-    BOUNDING_VOLUMES = "BOUNDING_VOLUMES"
-    BACKGROUND = "BACKGROUND"
-    BACKGROUND_GRADIENT = "BACKGROUND_GRADIENT"
-    CHECKERBOARD = "CHECKERBOARD"
-    EMISSION = "EMISSION"
-    AMBIENT = "AMBIENT"
-    DIFFUSE = "DIFFUSE"
-    PHONG = "PHONG"
-    BLINN = "BLINN"
-    POINT_LIGHTS = "POINT_LIGHTS"
-    DIRECTIONAL_LIGHTS = "DIRECTIONAL_LIGHTS"
-    INVERSE_SQUARE_FALLOFF = "INVERSE_SQUARE_FALLOFF"
-    POLYNOMIAL_FALLOFF = "POLYNOMIAL_FALLOFF"
-    MIRRORS = "MIRRORS"
-    DIELECTRICS = "DIELECTRICS"
-    CONSTANT_SPLIT = "CONSTANT_SPLIT"
-    ABSORPTION = "ABSORPTION"
-    RADIOMETRIC = "RADIOMETRIC"
 
 
 def required_features(scene: Scene) -> frozenset[Feature]:
@@ -50,7 +24,7 @@ def required_features(scene: Scene) -> frozenset[Feature]:
             *_camera_and_convention(scene),
             *_shapes(scene),
             *_lights(scene),
-            *(feature for material in used_materials(scene) for feature in _material(scene, material)),
+            *(feature for term in _terms_that_show(scene) for feature in term.features()),
             *_media(scene),
         )
     )
@@ -87,7 +61,7 @@ def _shapes(scene: Scene) -> Iterator[Feature]:
 
 
 def _lights(scene: Scene) -> Iterator[Feature]:
-    if not any(material.diffuse or material.specular for material in used_materials(scene)):
+    if not any("lights" in material.light_from() for material in used_materials(scene)):
         return  # nothing that a point light could light
     for light in scene.lights:
         if light.kind == "directional":
@@ -100,26 +74,16 @@ def _lights(scene: Scene) -> Iterator[Feature]:
             yield Feature.INVERSE_SQUARE_FALLOFF
 
 
-def _material(scene: Scene, material: Material) -> Iterator[Feature]:
-    lit = bool(scene.lights)
-    if material.ambient and any(scene.ambient_light):
-        yield Feature.AMBIENT
-    if material.emission:
-        yield Feature.EMISSION
-        if not isinstance(material.emission.radiance, tuple):
-            yield Feature.CHECKERBOARD
-    if material.diffuse and lit:
-        yield Feature.DIFFUSE
-        if not isinstance(material.diffuse.reflectance, tuple):
-            yield Feature.CHECKERBOARD
-    if material.specular and lit:
-        yield Feature.PHONG if material.specular.model == "phong" else Feature.BLINN
-    if material.mirror and scene.max_depth > 0:
-        yield Feature.MIRRORS
-    if material.dielectric and scene.max_depth > 0:
-        yield Feature.DIELECTRICS
-        if material.dielectric.reflectance:
-            yield Feature.CONSTANT_SPLIT
+def _terms_that_show(scene: Scene) -> Iterator[Term]:
+    """The terms of used materials to which the scene sends any light."""
+    shows = {
+        "lights": bool(scene.lights),
+        "ambient light": any(scene.ambient_light),
+        "rays": scene.max_depth > 0,
+        "itself": True,
+    }
+    for material in used_materials(scene):
+        yield from (term for term in material.terms().values() if shows[term.light_from])
 
 
 def _media(scene: Scene) -> Iterator[Feature]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from raytruth.scenes.values import Part, Positive, Vector
+
+if TYPE_CHECKING:
+    from pydantic.config import JsonDict
 
 VertexIndex = Annotated[int, Field(strict=True, ge=0)]
 
@@ -28,8 +31,21 @@ class Triangle(Part):
     material: str
 
 
+# What mesh_files.py checks, in words of JSON Schema.
+_FILE_ALONE: JsonDict = {
+    "required": ["file"],
+    "properties": {"file": {"type": "string"}, "vertices": {"maxItems": 0}, "faces": {"maxItems": 0}},
+}
+_LISTS_ALONE: JsonDict = {
+    "required": ["vertices", "faces"],
+    "properties": {"file": {"type": "null"}, "vertices": {"minItems": 1}, "faces": {"minItems": 1}},
+}
+
+
 class Mesh(Part):
     """Triangles that share vertices, inline or from an OBJ or PLY file beside the scene; normals as in Triangle."""
+
+    model_config = ConfigDict(json_schema_extra={"oneOf": [_FILE_ALONE, _LISTS_ALONE]})
 
     shape: Literal["mesh"]
     vertices: tuple[Vector, ...] = ()

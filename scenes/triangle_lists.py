@@ -16,14 +16,20 @@ class MeshFileError(Exception):
     """A mesh file cannot be used; the message is one sentence without the file's name."""
 
 
-def check_coordinate(value: float, where: str) -> float:
+def check_coordinate(value: float) -> float:
     """The coordinate itself, if it is finite and not absurdly large; raises MeshFileError."""
     # Written so that NaN fails, too.
     if not abs(value) <= LARGEST_COORDINATE:
-        raise MeshFileError(
-            f"{where}: expected a finite coordinate of at most {LARGEST_COORDINATE:g} in size, found {value}."
-        )
+        raise MeshFileError(f"expected a finite coordinate of at most {LARGEST_COORDINATE:g} in size, found {value}.")
     return value
+
+
+def check_polygon(corners: tuple[int, ...]) -> None:
+    """Raises MeshFileError unless a face has three different vertices or more."""
+    if len(corners) < 3:
+        raise MeshFileError(f"expected a face with at least three vertices, found {len(corners)}.")
+    if len(set(corners)) < len(corners):
+        raise MeshFileError("expected a face with each vertex once, found one again; remove the corner or the face.")
 
 
 def check_face_count(count: int) -> None:

@@ -33,7 +33,9 @@ def _not_zero(vector: Vector) -> Vector:
     return vector
 
 
-Direction = Annotated[Vector, AfterValidator(_not_zero)]
+_LONG_ENOUGH = {"contains": {"anyOf": [{"minimum": SHORTEST_DIRECTION}, {"maximum": -SHORTEST_DIRECTION}]}}
+
+Direction = Annotated[Vector, AfterValidator(_not_zero), Field(json_schema_extra=_LONG_ENOUGH)]
 
 
 class Part(BaseModel):

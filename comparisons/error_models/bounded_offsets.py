@@ -5,7 +5,7 @@ the edge, and so behind the neighbour. So it tests whether the ray would meet th
 its start off the surface if not. Which rays that are cannot be told where rounding decides it; how far they are moved
 can be bounded. A ray's start is then a small box: whatever the renderer did, it started somewhere in there.
 
-The functions here are overrides, as in ray_offsets.py.
+The functions here are source of the tracer, as those of ray_offsets.py.
 """
 
 from __future__ import annotations
@@ -13,33 +13,39 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
+from flint import arb
+
+from raytruth.comparisons.error_models.helpers import corners_of, edge_slack, pluecker_products, triangle_of
+from raytruth.comparisons.error_models.ray_offsets import offset_length
+from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, Behaviour
 from raytruth.reference_tracer.source.bounding_volume import certainly_less
-from raytruth.reference_tracer.source.features import SPHERES
-from raytruth.reference_tracer.source.scene_data import (
-    SPHERE_MATERIAL,
-    TRIANGLE_A,
-    TRIANGLE_B,
-    TRIANGLE_C,
-    rows_of,
-    vector_of,
-)
 from raytruth.reference_tracer.source.shadow import departure, shadow_ray_end
 from raytruth.reference_tracer.source.traversal import is_occluded
-from raytruth.reference_tracer.source.vector import add, cross, dot, subtract
+from raytruth.reference_tracer.source.vector import subtract
 
 if TYPE_CHECKING:
+    from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
 
-absolute_offset: Scalar = 0.0
-relative_offset: Scalar = 0.0
-"""Times max|p|."""
 anywhere_x: Scalar = 0.0
 """Between -1 and 1, as are the other two: which part of the bound a coordinate is off by."""
 anywhere_y: Scalar = 0.0
 anywhere_z: Scalar = 0.0
-edge_slack: Scalar = 0.0
-"""As in triangle_tests.py."""
+
+
+def bounded_offset_behaviour(error_model: ErrorModel) -> Behaviour:
+    """What an offset changes that is a bound, and else nothing; to be merged with HELPERS and `offset_behaviour`.
+
+    The constants are balls.
+    """
+    if not error_model.ray_offset.is_bound:
+        return IDEAL
+    return Behaviour(
+        {"departure": departure_within_bound, "is_shadowed": is_shadowed_from_within_bound},
+        constants={"anywhere_x": arb(0, 1), "anywhere_y": arb(0, 1), "anywhere_z": arb(0, 1)},
+        name="bounded ray offsets",
+    )
 
 
 def departure_within_bound(primitive: int, point: Vector, normal: Vector, direction: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - the signature of the function it stands for
@@ -48,8 +54,7 @@ def departure_within_bound(primitive: int, point: Vector, normal: Vector, direct
     One ray's start is independent of another's though they share these three numbers: each goes on as a bundle of its
     own (rounded_rays.py).
     """
-    largest = max(max(abs(point[0]), abs(point[1])), abs(point[2]))  # noqa: PLW3301 - balls have a maximum of two
-    reach = absolute_offset + relative_offset * largest
+    reach = offset_length(point)
     x = point[0] + normal[0] * reach * anywhere_x
     y = point[1] + normal[1] * reach * anywhere_y
     return (x, y, point[2] + normal[2] * reach * anywhere_z), primitive
@@ -61,19 +66,14 @@ def is_shadowed_from_within_bound(
     """A shadow ray's direction is that from the point, also where its start is moved.
 
     It surely starts on the point of a sphere, and of a triangle that it surely meets: by the products of Plücker
-    coordinates (triangle_tests.pluecker_distance), here with a slack against the hit.
+    coordinates, as in triangle_tests.pluecker_distance, but with the slack against the hit.
     """
     surely_kept = True
-    triangle = primitive
-    if SPHERES:
-        triangle = primitive - rows_of(scene, SPHERE_MATERIAL)
+    triangle = triangle_of(scene, primitive)
     if triangle >= 0:
-        to_a = subtract(vector_of(scene, TRIANGLE_A, triangle), point)
-        to_b = subtract(vector_of(scene, TRIANGLE_B, triangle), point)
-        to_c = subtract(vector_of(scene, TRIANGLE_C, triangle), point)
-        u = dot(cross(subtract(to_c, to_a), add(to_c, to_a)), to_light)
-        v = dot(cross(subtract(to_a, to_b), add(to_a, to_b)), to_light)
-        w = dot(cross(subtract(to_b, to_c), add(to_b, to_c)), to_light)
+        a, b, c = corners_of(scene, triangle)
+        to_a, to_b, to_c = subtract(a, point), subtract(b, point), subtract(c, point)
+        u, v, w = pluecker_products(to_a, to_b, to_c, to_light)
         slack = edge_slack * abs(u + v + w)
         in_front = certainly_less(slack, u) and certainly_less(slack, v) and certainly_less(slack, w)
         behind = certainly_less(u, -slack) and certainly_less(v, -slack) and certainly_less(w, -slack)

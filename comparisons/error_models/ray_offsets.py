@@ -5,28 +5,21 @@ is hit very near. Where that is done far above all rounding, the surface stays e
 starts, and how far the other side of a sphere is from there. Elsewhere the surface is tested as all others are, so
 that rounding may let a ray meet the very point that it leaves, as it may in such a renderer.
 
-The functions here are overrides: source of the tracer, in place of its own functions. So they run in every number type.
-The constants are given by the kernel's arithmetic (`offset_constants`).
+The functions here are source of the tracer, in place of its own functions. So they run in every number type. What is
+declared beside them for their sake are constants, whose values are given by `offset_behaviour`.
 """
 
 from __future__ import annotations
 
 from math import inf, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from flint import arb
 
-from raytruth.comparisons.error_models.bounded_offsets import departure_within_bound, is_shadowed_from_within_bound
+from raytruth.comparisons.error_models.helpers import corners_of, largest_magnitude
 from raytruth.reference_tracer.arithmetics.balls import stored_number
-from raytruth.reference_tracer.source.scene_data import (
-    SPHERE_CENTER,
-    SPHERE_RADIUS,
-    TRIANGLE_A,
-    TRIANGLE_B,
-    TRIANGLE_C,
-    number_of,
-    vector_of,
-)
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
+from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_RADIUS, number_of, vector_of
 from raytruth.reference_tracer.source.shadow import departure
 from raytruth.reference_tracer.source.sphere import sphere_distance
 from raytruth.reference_tracer.source.traversal import is_occluded
@@ -34,9 +27,8 @@ from raytruth.reference_tracer.source.triangle import triangle_distance
 from raytruth.reference_tracer.source.vector import add, along, dot, subtract
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.reference_tracer.arithmetics.behaviour import Function
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
 
@@ -54,55 +46,49 @@ either_sign: Scalar = 0.0
 """Between -1 and 1: a comparison with 0 goes both ways."""
 
 
-def offset_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
-    """The functions of the tracer's source that this renderer's offsets change."""
-    offset = error_model.ray_offset
-    overrides: dict[str, Callable[..., Any]] = {}
-    if offset.is_bound:
-        overrides["departure"] = departure_within_bound
-        overrides["is_shadowed"] = is_shadowed_from_within_bound
-    elif offset.moves_rays:
-        overrides["departure"] = departure_along_normal if offset.along == "normal" else departure_along_ray
-    if not offset.excludes_surface:
-        overrides["distance_to_sphere"] = distance_to_any_sphere
-        overrides["distance_to_triangle"] = distance_to_any_triangle
-    elif offset.moves_rays and not offset.is_bound:
-        overrides["distance_to_other_side"] = distance_to_other_side_from_offset
-    if error_model.shadow_shortening > 0.0:
-        overrides["shadow_ray_end"] = early_shadow_ray_end
-    if error_model.shadow_tolerance > 0.0:
-        overrides["is_shadowed"] = is_shadowed_within_tolerance
-    return overrides
+def offset_behaviour(error_model: ErrorModel) -> Behaviour:
+    """What this renderer's offsets change, but for one that is a bound (bounded_offsets.py); to be merged with HELPERS.
 
-
-def offset_constants(error_model: ErrorModel) -> dict[str, Any]:
-    """The constants of the overrides by name, as balls that hold what the renderer stores."""
+    The constants are balls that hold what the renderer stores.
+    """
     offset, bits = error_model.ray_offset, error_model.precision_bits
-    return {
+    functions: dict[str, Function] = {}
+    if offset.moves_rays and not offset.is_bound:
+        functions["departure"] = departure_along_normal if offset.along == "normal" else departure_along_ray
+    if not offset.excludes_surface:
+        functions["distance_to_sphere"] = distance_to_any_sphere
+        functions["distance_to_triangle"] = distance_to_any_triangle
+    elif offset.moves_rays and not offset.is_bound:
+        functions["distance_to_other_side"] = distance_to_other_side_from_offset
+    if error_model.shadow_shortening > 0.0:
+        functions["shadow_ray_end"] = early_shadow_ray_end
+    if error_model.shadow_tolerance > 0.0:
+        functions["is_shadowed"] = is_shadowed_within_tolerance
+    constants = {
         "absolute_offset": stored_number(offset.absolute, bits),
         "relative_offset": stored_number(offset.relative, bits),
         "about_one": arb(1, offset.relative),
-        "anywhere_x": arb(0, 1),
-        "anywhere_y": arb(0, 1),
-        "anywhere_z": arb(0, 1),
         "minimum_distance": stored_number(offset.minimum_distance, bits),
         "shadow_shortening": stored_number(error_model.shadow_shortening, bits),
         "shadow_tolerance": stored_number(error_model.shadow_tolerance, bits),
         "either_sign": arb(0, 1),
     }
+    return Behaviour(functions, (offset_length,), constants, "ray offsets")
+
+
+def offset_length(point: Vector) -> Scalar:
+    """How far beside a point of a surface a ray starts."""
+    return absolute_offset + relative_offset * largest_magnitude(point[0], point[1], point[2])
 
 
 def departure_along_normal(primitive: int, point: Vector, normal: Vector, direction: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - the signature of the function it stands for
     """Beside the surface, on the side that the ray goes to."""
-    largest = max(max(abs(point[0]), abs(point[1])), abs(point[2]))  # noqa: PLW3301 - balls have a maximum of two
-    return along(point, normal, absolute_offset + relative_offset * largest), primitive
+    return along(point, normal, offset_length(point)), primitive
 
 
 def departure_along_ray(primitive: int, point: Vector, normal: Vector, direction: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - as above
     """A little way along the ray."""
-    largest = max(max(abs(point[0]), abs(point[1])), abs(point[2]))  # noqa: PLW3301 - balls have a maximum of two
-    offset = absolute_offset + relative_offset * largest
-    return along(point, direction, offset / sqrt(dot(direction, direction))), primitive
+    return along(point, direction, offset_length(point) / sqrt(dot(direction, direction))), primitive
 
 
 def distance_to_other_side_from_offset(origin: Vector, direction: Vector, center: Vector) -> Scalar:
@@ -116,8 +102,7 @@ def distance_to_other_side_from_offset(origin: Vector, direction: Vector, center
     half_linear = dot(direction, from_center)
     if half_linear >= 0.0:
         return inf
-    largest = max(max(abs(origin[0]), abs(origin[1])), abs(origin[2]))  # noqa: PLW3301 - balls have a maximum of two
-    offset = (absolute_offset + relative_offset * largest) / about_one
+    offset = offset_length(origin) / about_one
     direction_squared = dot(direction, direction)
     product = (2.0 * sqrt(dot(from_center, from_center)) + offset) * offset
     return (sqrt(half_linear * half_linear + direction_squared * product) - half_linear) / direction_squared
@@ -137,13 +122,8 @@ def distance_to_any_sphere(scene: SceneData, origin: Vector, direction: Vector, 
 def distance_to_any_triangle(scene: SceneData, origin: Vector, direction: Vector, left: int, triangle: int) -> Scalar:  # noqa: ARG001 - as above
     """To the triangle if it is not too near, also if the ray starts on it."""
     skipped = minimum_distance / sqrt(dot(direction, direction))
-    distance = triangle_distance(
-        along(origin, direction, skipped),
-        direction,
-        vector_of(scene, TRIANGLE_A, triangle),
-        vector_of(scene, TRIANGLE_B, triangle),
-        vector_of(scene, TRIANGLE_C, triangle),
-    )
+    a, b, c = corners_of(scene, triangle)
+    distance = triangle_distance(along(origin, direction, skipped), direction, a, b, c)
     if distance < inf:
         return skipped + distance
     return inf

@@ -1,38 +1,28 @@
 """How a renderer may test rays against triangles, in place of the watertight test of the truth.
 
 The formulas are equal in exact arithmetic; what rounding does to each near an edge is not. The functions here are
-overrides: source of the tracer, in place of its `triangle_distance`. So they run in every number type.
+source of the tracer, in place of its `triangle_distance`. So they run in every number type.
 """
 
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from flint import arb
-
-from raytruth.reference_tracer.source.vector import add, cross, dot, subtract
+from raytruth.comparisons.error_models.helpers import edge_slack, pluecker_product
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
+from raytruth.reference_tracer.source.vector import cross, dot, subtract
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
 
-edge_slack: Scalar = 2.0**-23
-"""Embree's `ulp`, the machine epsilon of float32 (common/math/constants.h line 120)."""
 
-
-def triangle_test_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
-    """The function of the tracer's source that this renderer's test replaces; nothing for the truth's own test."""
+def triangle_test_behaviour(error_model: ErrorModel) -> Behaviour:
+    """What this renderer's test replaces, nothing for the truth's own test; to be merged with HELPERS."""
     tests = {"moeller-trumbore": moeller_trumbore_distance, "pluecker": pluecker_distance}
     test = tests.get(error_model.triangle_test)
-    return {} if test is None else {"triangle_distance": test}
-
-
-def triangle_test_constants() -> dict[str, Any]:
-    """The constants of the overrides by name, as balls."""
-    return {"edge_slack": arb(edge_slack)}
+    return Behaviour({} if test is None else {"triangle_distance": test}, name="the test of triangles")
 
 
 def moeller_trumbore_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c: Vector) -> Scalar:
@@ -70,9 +60,9 @@ def pluecker_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c
     """
     to_a, to_b, to_c = subtract(a, origin), subtract(b, origin), subtract(c, origin)
     edges = (subtract(to_c, to_a), subtract(to_a, to_b), subtract(to_b, to_c))
-    u = dot(cross(edges[0], add(to_c, to_a)), direction)
-    v = dot(cross(edges[1], add(to_a, to_b)), direction)
-    w = dot(cross(edges[2], add(to_b, to_c)), direction)
+    u = pluecker_product(edges[0], to_a, to_c, direction)
+    v = pluecker_product(edges[1], to_b, to_a, direction)
+    w = pluecker_product(edges[2], to_c, to_b, direction)
     slack = edge_slack * abs(u + v + w)
     if (u < -slack or v < -slack or w < -slack) and (u > slack or v > slack or w > slack):
         return inf

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.faults.edits import Edit, Function, edited
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from raytruth.comparisons.error_models.output_model import OutputModel
 
 Array = NDArray[np.float64]
-Function = Callable[..., Any]
 Finish = Callable[[Array], Array]
 """From the linear values that were computed, shape (height, width, 3), to those that are read from the file."""
 
@@ -66,18 +66,33 @@ def fault(
     clause: str,
     function: str,
     hint: str,
-    *,
+    *edits: Edit,
+    of: Function | None = None,
     gives: Literal["image", "first hits"] = "image",
     numbers: Literal["float64", "float32"] = "float64",
 ) -> Callable[[Function], Fault]:
-    """Make a fault of a function that stands in for one of the tracer's; its docstring is the student's sentence."""
+    """Make a fault; the docstring of the decorated function is the student's sentence.
+
+    The decorated function is the faulty one itself. With edits it is empty: they tell what is wrong in the tracer's
+    function, or in another that can stand in for it (`of`). Raises ValueError for an edit that cannot be made.
+    """
 
     def made(body: Function) -> Fault:
+        faulty = stand_in(function, body, edits, of)
         return Fault(
-            body.__name__, _words(body), {function: body}, None, numbers, gives, STUDENT, clause=clause, hint=hint
+            body.__name__, words_of(body), {function: faulty}, None, numbers, gives, STUDENT, clause=clause, hint=hint
         )
 
     return made
+
+
+def stand_in(function: str, body: Function, edits: tuple[Edit, ...], of: Function | None) -> Function:
+    """What replaces the tracer's function: the body, or an edited function. Raises ValueError for both at once."""
+    if not edits:
+        return body
+    if inspect.signature(body).parameters:
+        raise ValueError(f"{body.__name__} has both a body and edits, of which only one can stand in for {function}")
+    return edited(function, *edits, of=of)
 
 
 def output_fault(clause: str, hint: str, output: OutputModel | None = None) -> Callable[[Finish], Fault]:
@@ -85,7 +100,7 @@ def output_fault(clause: str, hint: str, output: OutputModel | None = None) -> C
     declares = STUDENT if output is None else ErrorModel(STUDENT.description, STUDENT.precision_bits, output=output)
 
     def made(finish: Finish) -> Fault:
-        return Fault(finish.__name__, _words(finish), {}, finish, declares=declares, clause=clause, hint=hint)
+        return Fault(finish.__name__, words_of(finish), {}, finish, declares=declares, clause=clause, hint=hint)
 
     return made
 
@@ -102,5 +117,6 @@ def subjects_in(modules: tuple[ModuleType, ...]) -> dict[str, Any]:
     return found
 
 
-def _words(function: Callable[..., object]) -> str:
+def words_of(function: Function) -> str:
+    """The docstring as one line."""
     return " ".join((function.__doc__ or "").split())

@@ -5,16 +5,8 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
+from raytruth.comparisons.faults.edits import Edit
 from raytruth.comparisons.faults.fault import fault
-from raytruth.reference_tracer.source.features import CONSTANT_SPLIT, RADIOMETRIC
-from raytruth.reference_tracer.source.refraction import fresnel_reflectance
-from raytruth.reference_tracer.source.scene_data import (
-    MATERIAL_HAS_CONSTANT_SPLIT,
-    MATERIAL_REFLECTANCE,
-    MATERIAL_TRANSMITTANCE,
-    integer_of,
-    vector_of,
-)
 
 if TYPE_CHECKING:
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
@@ -88,60 +80,34 @@ def always_four_percent(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
     return max(0.04, 0.5 * (across * across + within * within))
 
 
-@fault("REFR-5", "split", "How does radiance change where light is squeezed into a narrower cone?")
-def radiance_not_scaled(
-    scene: SceneData, material: int, cosine: Scalar, g: Scalar, ratio: Scalar
-) -> tuple[Vector, Vector]:
+@fault(
+    "REFR-5",
+    "split",
+    "How does radiance change where light is squeezed into a narrower cone?",
+    Edit("RADIOMETRIC", "False"),
+)
+def radiance_not_scaled() -> None:
     """The transmitted radiance is not divided by the square of the index ratio."""
-    if CONSTANT_SPLIT:
-        if integer_of(scene, MATERIAL_HAS_CONSTANT_SPLIT, material):
-            return vector_of(scene, MATERIAL_REFLECTANCE, material), vector_of(scene, MATERIAL_TRANSMITTANCE, material)
-    reflected = fresnel_reflectance(cosine, g, ratio)
-    transmitted = 1.0 - reflected
-    return (reflected, reflected, reflected), (transmitted, transmitted, transmitted)
 
 
-@fault("REFR-5", "split", "In which direction do you follow the light: from the camera or from the lamp?")
-def radiance_scaled_the_wrong_way(
-    scene: SceneData, material: int, cosine: Scalar, g: Scalar, ratio: Scalar
-) -> tuple[Vector, Vector]:
+@fault(
+    "REFR-5",
+    "split",
+    "In which direction do you follow the light: from the camera or from the lamp?",
+    Edit("transmitted / (ratio * ratio)", "transmitted * (ratio * ratio)"),
+)
+def radiance_scaled_the_wrong_way() -> None:
     """The transmitted radiance is multiplied by the square of the index ratio instead of divided by it."""
-    if CONSTANT_SPLIT:
-        if integer_of(scene, MATERIAL_HAS_CONSTANT_SPLIT, material):
-            return vector_of(scene, MATERIAL_REFLECTANCE, material), vector_of(scene, MATERIAL_TRANSMITTANCE, material)
-    reflected = fresnel_reflectance(cosine, g, ratio)
-    transmitted = 1.0 - reflected
-    if RADIOMETRIC:
-        transmitted = transmitted * (ratio * ratio)
-    return (reflected, reflected, reflected), (transmitted, transmitted, transmitted)
 
 
-@fault("REFR-5", "split", "In which of the two conventions does radiance scale?")
-def radiance_scaled_in_the_classical_equation(
-    scene: SceneData, material: int, cosine: Scalar, g: Scalar, ratio: Scalar
-) -> tuple[Vector, Vector]:
+@fault("REFR-5", "split", "In which of the two conventions does radiance scale?", Edit("RADIOMETRIC", "True"))
+def radiance_scaled_in_the_classical_equation() -> None:
     """The transmitted light is divided by the square of the index ratio in the classical convention, too."""
-    if CONSTANT_SPLIT:
-        if integer_of(scene, MATERIAL_HAS_CONSTANT_SPLIT, material):
-            return vector_of(scene, MATERIAL_REFLECTANCE, material), vector_of(scene, MATERIAL_TRANSMITTANCE, material)
-    reflected = fresnel_reflectance(cosine, g, ratio)
-    transmitted = (1.0 - reflected) / (ratio * ratio)
-    return (reflected, reflected, reflected), (transmitted, transmitted, transmitted)
 
 
-@fault("REFR-5", "split", "What do the reflected and the transmitted part add up to?")
-def all_of_it_transmitted(
-    scene: SceneData, material: int, cosine: Scalar, g: Scalar, ratio: Scalar
-) -> tuple[Vector, Vector]:
+@fault("REFR-5", "split", "What do the reflected and the transmitted part add up to?", Edit("1.0 - reflected", "1.0"))
+def all_of_it_transmitted() -> None:
     """What is reflected is not taken away from what is transmitted."""
-    if CONSTANT_SPLIT:
-        if integer_of(scene, MATERIAL_HAS_CONSTANT_SPLIT, material):
-            return vector_of(scene, MATERIAL_REFLECTANCE, material), vector_of(scene, MATERIAL_TRANSMITTANCE, material)
-    reflected = fresnel_reflectance(cosine, g, ratio)
-    transmitted = 1.0
-    if RADIOMETRIC:
-        transmitted = transmitted / (ratio * ratio)
-    return (reflected, reflected, reflected), (transmitted, transmitted, transmitted)
 
 
 @fault("REFR-5", "total_reflection_weight", "Where does the light go that cannot get out of the glass?")
@@ -150,19 +116,21 @@ def total_reflection_is_black(scene: SceneData, material: int) -> Vector:
     return (0.0, 0.0, 0.0)
 
 
-@fault("REFR-6", "split", "Which material states its own constants, and where do you use them?")
-def constants_ignored(
-    scene: SceneData, material: int, cosine: Scalar, g: Scalar, ratio: Scalar
-) -> tuple[Vector, Vector]:
+@fault(
+    "REFR-6",
+    "split",
+    "Which material states its own constants, and where do you use them?",
+    Edit("CONSTANT_SPLIT", "False"),
+)
+def constants_ignored() -> None:
     """Fresnel's equations are used for materials that state the classical constants."""
-    reflected = fresnel_reflectance(cosine, g, ratio)
-    transmitted = 1.0 - reflected
-    if RADIOMETRIC:
-        transmitted = transmitted / (ratio * ratio)
-    return (reflected, reflected, reflected), (transmitted, transmitted, transmitted)
 
 
-@fault("REFR-6", "total_reflection_weight", "How much does glass with constants reflect beyond the critical angle?")
-def total_reflection_in_full(scene: SceneData, material: int) -> Vector:
+@fault(
+    "REFR-6",
+    "total_reflection_weight",
+    "How much does glass with constants reflect beyond the critical angle?",
+    Edit("CONSTANT_SPLIT", "False"),
+)
+def total_reflection_in_full() -> None:
     """Beyond the critical angle everything is reflected, also where the material states a reflectance."""
-    return (1.0, 1.0, 1.0)

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from raytruth.comparisons.faults.edits import Edit
 from raytruth.comparisons.faults.fault import fault
-from raytruth.reference_tracer.source.reflection import mirror_direction
-from raytruth.reference_tracer.source.shadow import departure
-from raytruth.reference_tracer.source.vector import along, dot, negate, normalize, scale, subtract
+from raytruth.reference_tracer.source.vector import along, dot, negate, normalize, subtract
 
 if TYPE_CHECKING:
     from raytruth.reference_tracer.source.numbers import Vector
-    from raytruth.reference_tracer.source.ray_tree import Ray
 
 
 @fault("REFL-1", "mirror_direction", "Draw d, n and r: how often does the part along n have to be taken away?")
@@ -32,21 +30,16 @@ def halfway_vector_for_the_reflection(direction: Vector, normal: Vector) -> Vect
     return normalize(subtract(normal, direction))
 
 
-@fault("REFL-2", "reflected_ray", "Which colour has the image in a golden mirror?")
-def reflection_in_one_channel(
-    primitive: int, point: Vector, normal: Vector, direction: Vector, weight: Vector, medium: int, depth: int
-) -> Ray:
+@fault(
+    "REFL-2",
+    "reflected_ray",
+    "Which colour has the image in a golden mirror?",
+    Edit("weight", "(weight[0], weight[0], weight[0])"),
+)
+def reflection_in_one_channel() -> None:
     """The red reflectance is used for all three channels."""
-    mirrored = mirror_direction(direction, normal)
-    start, left = departure(primitive, point, normal, mirrored)
-    return start, mirrored, (weight[0], weight[0], weight[0]), left, medium, depth - 1
 
 
-@fault("REFL-2", "reflected_ray", "How bright is the image in a perfect mirror?")
-def reflection_one_percent_too_dark(
-    primitive: int, point: Vector, normal: Vector, direction: Vector, weight: Vector, medium: int, depth: int
-) -> Ray:
+@fault("REFL-2", "reflected_ray", "How bright is the image in a perfect mirror?", Edit("weight", "scale(weight, 0.99)"))
+def reflection_one_percent_too_dark() -> None:
     """One percent of the light is lost at every reflection."""
-    mirrored = mirror_direction(direction, normal)
-    start, left = departure(primitive, point, normal, mirrored)
-    return start, mirrored, scale(weight, 0.99), left, medium, depth - 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, pi, sqrt, tan
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.faults.fault import Function, Subject
+from raytruth.comparisons.faults.fault import Subject, stand_in, words_of
 from raytruth.reference_tracer.source.features import BACKGROUND, BACKGROUND_GRADIENT, PERSPECTIVE
 from raytruth.reference_tracer.source.scene_data import (
     BACKGROUND_COLOR,
@@ -28,16 +28,18 @@ from raytruth.reference_tracer.source.vector import add, along, cross, dot, nega
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from raytruth.comparisons.faults.edits import Edit, Function
     from raytruth.reference_tracer.source.camera import Frame
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
 
 
-def variant(function: str) -> Callable[[Function], Subject]:
-    """Make a legitimate variant of a function that stands in for one of the tracer's."""
+def variant(function: str, *edits: Edit) -> Callable[[Function], Subject]:
+    """Make a legitimate variant of what stands in for a function of the tracer, as `fault` does."""
 
     def made(body: Function) -> Subject:
-        return Subject(body.__name__.replace("_", " "), " ".join((body.__doc__ or "").split()), {function: body})
+        name = body.__name__.replace("_", " ")
+        return Subject(name, words_of(body), {function: stand_in(function, body, edits, None)})
 
     return made
 
@@ -78,6 +80,10 @@ def moeller_trumbore_without_threshold(origin: Vector, direction: Vector, a: Vec
         return inf
     t = dot(second_edge, q) / determinant
     return t if t > 0.0 else inf
+
+
+MOELLER_TRUMBORE = moeller_trumbore_without_threshold.overrides["triangle_distance"]
+"""The textbook's function, which the faults of triangles are edits of."""
 
 
 @variant("triangle_distance")

@@ -4,44 +4,52 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from raytruth.comparisons.faults.edits import Edit, at_the_start
 from raytruth.comparisons.faults.fault import fault
-from raytruth.reference_tracer.source.scene_data import MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX, number_of
-from raytruth.reference_tracer.source.shadow import departure
-from raytruth.reference_tracer.source.vector import along, negate, normalize, scale
+from raytruth.reference_tracer.source.vector import along, normalize, scale
 
 if TYPE_CHECKING:
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
-    from raytruth.reference_tracer.source.ray_tree import Ray
-    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
-@fault("REFR-1", "index_ratio", "Does light bend toward the normal when it enters glass, or away from it?")
-def inverted_index_ratio(scene: SceneData, material: int, entering: bool) -> Scalar:
+@fault(
+    "REFR-1",
+    "index_ratio",
+    "Does light bend toward the normal when it enters glass, or away from it?",
+    Edit("inside / outside if entering else outside / inside", "outside / inside if entering else inside / outside"),
+)
+def inverted_index_ratio() -> None:
     """The ratio of the indices is upside down."""
-    inside = number_of(scene, MATERIAL_INDEX, material)
-    outside = number_of(scene, MATERIAL_OUTSIDE_INDEX, material)
-    return outside / inside if entering else inside / outside
 
 
-@fault("REFR-1", "index_ratio", "Which medium is around an air bubble in glass?")
-def empty_space_around_everything(scene: SceneData, material: int, entering: bool) -> Scalar:
+@fault(
+    "REFR-1",
+    "index_ratio",
+    "Which medium is around an air bubble in glass?",
+    Edit("number_of(scene, MATERIAL_OUTSIDE_INDEX, material)", "1.0"),
+)
+def empty_space_around_everything() -> None:
     """The medium outside is always taken for empty space, also around a bubble in glass."""
-    inside = number_of(scene, MATERIAL_INDEX, material)
-    return inside if entering else 1.0 / inside
 
 
-@fault("REFR-1", "index_ratio", "What changes between the way into the glass and the way out?")
-def same_ratio_on_both_sides(scene: SceneData, material: int, entering: bool) -> Scalar:
+@fault(
+    "REFR-1",
+    "index_ratio",
+    "What changes between the way into the glass and the way out?",
+    Edit("inside / outside if entering else outside / inside", "inside / outside"),
+)
+def same_ratio_on_both_sides() -> None:
     """The same ratio of the indices is used for rays that enter and for rays that leave."""
-    return number_of(scene, MATERIAL_INDEX, material) / number_of(scene, MATERIAL_OUTSIDE_INDEX, material)
 
 
-@fault("REFR-1", "index_ratio", "How many digits has your index of refraction?")
-def index_one_percent_off(scene: SceneData, material: int, entering: bool) -> Scalar:
+@fault(
+    "REFR-1",
+    "index_ratio",
+    "How many digits has your index of refraction?",
+    Edit("number_of(scene, MATERIAL_INDEX, material)", "1.01 * number_of(scene, MATERIAL_INDEX, material)"),
+)
+def index_one_percent_off() -> None:
     """The index of refraction is one percent too high."""
-    inside = 1.01 * number_of(scene, MATERIAL_INDEX, material)
-    outside = number_of(scene, MATERIAL_OUTSIDE_INDEX, material)
-    return inside / outside if entering else outside / inside
 
 
 @fault("REFR-2", "snell_discriminant", "What becomes of a ray for which Snell's law has no solution?")
@@ -98,13 +106,14 @@ def angles_in_place_of_sines(direction: Vector, normal: Vector, cosine: Scalar, 
     return normalize(along(scale(tangential, 1.0 / ratio), normal, -cosine))
 
 
-@fault("REFR-5", "transmitted_ray", "Does the image stay as sharp and bright behind two panes as behind one?")
-def dimmer_after_the_second_refraction(
-    primitive: int, point: Vector, normal: Vector, refracted: Vector, weight: Vector, medium: int, depth: int
-) -> Ray:
+@fault(
+    "REFR-5",
+    "transmitted_ray",
+    "Does the image stay as sharp and bright behind two panes as behind one?",
+    at_the_start("""
+        if medium < 0:
+            weight = scale(weight, 0.99)
+        """),
+)
+def dimmer_after_the_second_refraction() -> None:
     """Rays that leave into empty space lose one percent, so it is right until the second refraction."""
-    start, left = departure(primitive, point, negate(normal), refracted)
-    kept = weight
-    if medium < 0:
-        kept = scale(weight, 0.99)
-    return start, refracted, kept, left, medium, depth - 1

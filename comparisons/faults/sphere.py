@@ -5,22 +5,17 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING
 
+from raytruth.comparisons.faults.edits import Edit
 from raytruth.comparisons.faults.fault import fault
-from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_RADIUS, number_of, vector_of
-from raytruth.reference_tracer.source.sphere import distance_to_other_side, sphere_distance
 from raytruth.reference_tracer.source.vector import dot, normalize, scale, subtract
 
 if TYPE_CHECKING:
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
-    from raytruth.reference_tracer.source.scene_data import SceneData
 
 
-@fault("SPH-1", "root_outside", "Of two hits, which one does the viewer see?")
-def farther_root_of_a_sphere(foot: Scalar, half_chord_squared: Scalar, product: Scalar) -> Scalar:
+@fault("SPH-1", "root_outside", "Of two hits, which one does the viewer see?", Edit("product / farther", "farther"))
+def farther_root_of_a_sphere() -> None:
     """The farther of two hits is taken, so the back of the sphere is seen from outside."""
-    if half_chord_squared >= 0.0:
-        return foot + sqrt(half_chord_squared)
-    return inf
 
 
 @fault("SPH-1", "sphere_distance", "Which of your rays have a direction that is not a unit vector?")
@@ -52,41 +47,35 @@ def sign_in_the_discriminant(origin: Vector, direction: Vector, center: Vector, 
     return t if t > 0.0 else inf
 
 
-@fault("SPH-1", "distance_to_sphere", "Compare the size of the sphere in the image with what the scene says.")
-def sphere_one_percent_too_large(scene: SceneData, origin: Vector, direction: Vector, left: int, sphere: int) -> Scalar:
+@fault(
+    "SPH-1",
+    "distance_to_sphere",
+    "Compare the size of the sphere in the image with what the scene says.",
+    Edit("number_of(scene, SPHERE_RADIUS, sphere)", "1.01 * number_of(scene, SPHERE_RADIUS, sphere)"),
+)
+def sphere_one_percent_too_large() -> None:
     """Spheres are met with a radius that is one percent too large."""
-    center = vector_of(scene, SPHERE_CENTER, sphere)
-    if sphere == left:
-        return distance_to_other_side(origin, direction, center)
-    return sphere_distance(origin, direction, center, 1.01 * number_of(scene, SPHERE_RADIUS, sphere))
 
 
 @fault(
     "SPH-2",
     "root_outside",
     "What does a ray that just touches the sphere's rim do, and what is your discriminant there?",
+    Edit("half_chord_squared >= 0.0", "half_chord_squared >= 1e-2"),
 )
-def rim_of_a_sphere_cut_off(foot: Scalar, half_chord_squared: Scalar, product: Scalar) -> Scalar:
+def rim_of_a_sphere_cut_off() -> None:
     """A small discriminant counts as a miss, so spheres lose their rim."""
-    if half_chord_squared >= 1e-2:
-        farther = foot + sqrt(half_chord_squared)
-        if product > 0.0:
-            return product / farther
-        return farther
-    return inf
 
 
 @fault(
-    "SPH-2", "root_outside", "What does a ray that misses the sphere by little do, and what is your discriminant there?"
+    "SPH-2",
+    "root_outside",
+    "What does a ray that misses the sphere by little do, and what is your discriminant there?",
+    Edit("half_chord_squared >= 0.0", "half_chord_squared >= -1e-2"),
+    Edit("sqrt(half_chord_squared)", "sqrt(max(half_chord_squared, 0.0))"),
 )
-def near_miss_hits_a_sphere(foot: Scalar, half_chord_squared: Scalar, product: Scalar) -> Scalar:
+def near_miss_hits_a_sphere() -> None:
     """A slightly negative discriminant is set to 0, so spheres grow a thin rim."""
-    if half_chord_squared >= -1e-2:
-        farther = foot + sqrt(max(half_chord_squared, 0.0))
-        if product > 0.0:
-            return product / farther
-        return farther
-    return inf
 
 
 @fault("SPH-3", "root_inside", "Which of the two roots is positive for a ray that starts inside?")
@@ -101,13 +90,14 @@ def no_way_out_of_a_sphere(origin: Vector, direction: Vector, center: Vector) ->
     return inf
 
 
-@fault("SPH-4", "distance_to_other_side", "How long is the chord through the centre?")
-def way_through_a_sphere_halved(origin: Vector, direction: Vector, center: Vector) -> Scalar:
+@fault(
+    "SPH-4",
+    "distance_to_other_side",
+    "How long is the chord through the centre?",
+    Edit("-2.0 * half_linear", "-half_linear"),
+)
+def way_through_a_sphere_halved() -> None:
     """The way through the sphere ends at its middle, since a factor of 2 is missing."""
-    half_linear = dot(direction, subtract(origin, center))
-    if half_linear >= 0.0:
-        return inf
-    return -half_linear / dot(direction, direction)
 
 
 @fault("SPH-5", "sphere_normal", "Which way does the normal point, and who relies on that?")

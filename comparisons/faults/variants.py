@@ -14,12 +14,14 @@ import numpy as np
 from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.comparisons.faults import other_formulas, other_searches, other_starts
-from raytruth.comparisons.faults.fault import STUDENT, Array, Finish, Function, Subject, subjects_in
+from raytruth.comparisons.faults.fault import STUDENT, Array, Finish, Subject, subjects_in
 from raytruth.comparisons.records.srgb import srgb_decoded, srgb_encoded
 from raytruth.reference_tracer.arithmetics.textbook_forms import VARIANTS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from raytruth.comparisons.faults.edits import Function
 
 # Of float32's 24 bits two, for exponentials, tangents and powers from the mathematical library.
 FLOAT32 = ErrorModel("float32 with 2 bits for the mathematical library", precision_bits=22)

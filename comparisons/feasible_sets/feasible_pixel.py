@@ -59,20 +59,22 @@ class PixelEvaluator:
         Raises UndecidableError, also where one box spans more than half of all that a ray of the scene may bring: such
         a pixel would pass with almost any value; and as soon as outcomes must be merged, unless they may be.
         """
-        origin, direction = self._primary_ray(column, line)
-        white = (arb(1), arb(1), arb(1))
         self.merged, self.may_merge = False, may_merge
-        boxes = self._outcomes((origin, direction, white, NOTHING, self.medium, self.depth), MOST_OUTCOMES)
+        with self.rays.prepared.arithmetic.in_force():
+            origin, direction = self._primary_ray(column, line)
+            white = (arb(1), arb(1), arb(1))
+            boxes = self._outcomes((origin, direction, white, NOTHING, self.medium, self.depth), MOST_OUTCOMES)
         if self.bound is not None and 2 * widest(boxes) > self.bound.at_camera / 2:
             raise UndecidableError
         return boxes, self.merged
 
     def first_hits(self, column: int, line: int) -> list[FirstHit]:
         """What the pixel's ray may meet first. Raises UndecidableError."""
-        origin, direction = self._primary_ray(column, line)
         try:
-            hits = every_outcome(lambda: self.rays.first_hit(origin, direction), self.rays.decisions, MOST_OUTCOMES)
-            found = [FirstHit(*hit) for hit in hits]
+            with self.rays.prepared.arithmetic.in_force():
+                origin, direction = self._primary_ray(column, line)
+                hits = every_outcome(lambda: self.rays.first_hit(origin, direction), self.rays.decisions, MOST_OUTCOMES)
+                found = [FirstHit(*hit) for hit in hits]
         except TooManyOutcomesError as error:
             raise UndecidableError from error
         if not all(value.is_finite() for hit in found for value in hit.values):

@@ -12,20 +12,22 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.comparisons.feasible_sets.feasible_pixel import FirstHit, PixelEvaluator, UndecidableError, widest
 from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
 from raytruth.comparisons.feasible_sets.rounded_rays import LinkedRays, PlainRays
+from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.feasible_sets.rounded_rays import Box
+    from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.scenes.scene import Scene
 
 
@@ -83,44 +85,44 @@ FIRST_HIT_OUTPUT = OutputModel("float32")
 def feasible_set(
     scene: Scene,
     error_model: ErrorModel,
-    overrides: Mapping[str, Callable[..., object]] | None = None,
+    behaviour: Behaviour = IDEAL,
     *,
     with_colors: bool = True,
 ) -> FeasibleSet:
-    """The feasible sets of all pixels of a scene; `overrides` replace functions of the tracer's source.
+    """The feasible sets of all pixels of a scene; `behaviour` is what the renderer does besides its error model.
 
     All pixels are evaluated in plain balls, which is quick; in linked ones those of which plain ones say nothing, or
     cannot tell all outcomes apart, and those whose boxes are wide beside the image's brightest value.
     Without colours only the feasible sets of first hits are made, and no pixel has an outcome.
+    Raises ValueError for a behaviour that changes what the error model changes, too.
     """
     bound = radiance_bound(scene)
     pixels = [(column, line) for line in range(scene.camera.height) for column in range(scene.camera.width)]
-    with ctx.workprec(ctx.prec):  # both ways of following rays set it
-        model_of_light = error_model.of_light()
-        plain = PixelEvaluator(PlainRays(scene, error_model, overrides), bound, FLOAT32_BITS)
-        plain_light = plain
-        if with_colors and model_of_light is not error_model:
-            plain_light = PixelEvaluator(PlainRays(scene, model_of_light, overrides), bound, FLOAT32_BITS)
-        colors: list[_Colors | None] = []
-        hits = []
-        for pixel in pixels:
-            colors.append(_colors(plain_light, pixel, may_merge=False) if with_colors else None)
-            hits.append(_first_hits(plain, pixel))
-        # Made only where they are needed; often the error model is that of light, too.
-        linked = cache(lambda model: PixelEvaluator(LinkedRays(scene, model, overrides), bound, FLOAT32_BITS))
-        if with_colors:
-            unclear = {place for place, color in enumerate(colors) if color is None}
-            for place in unclear:
-                pixel = pixels[place]
-                colors[place] = _colors(linked(model_of_light), pixel) or _colors(plain_light, pixel)
-            widest_radius = WIDE * _brightest(colors)
-            wide = {place for place, color in enumerate(colors) if color and widest(color.boxes) > widest_radius}
-            for place in wide - unclear:
-                colors[place] = _colors(linked(model_of_light), pixels[place]) or colors[place]
-        for place, hit in enumerate(hits):
-            if hit is None:
-                hits[place] = _first_hits(linked(error_model), pixels[place])
-        return _as_arrays(scene, error_model, colors, hits)
+    model_of_light = error_model.of_light()
+    plain = PixelEvaluator(PlainRays(scene, error_model, behaviour), bound, FLOAT32_BITS)
+    plain_light = plain
+    if with_colors and model_of_light is not error_model:
+        plain_light = PixelEvaluator(PlainRays(scene, model_of_light, behaviour), bound, FLOAT32_BITS)
+    colors: list[_Colors | None] = []
+    hits = []
+    for pixel in pixels:
+        colors.append(_colors(plain_light, pixel, may_merge=False) if with_colors else None)
+        hits.append(_first_hits(plain, pixel))
+    # Made only where they are needed; often the error model is that of light, too.
+    linked = cache(lambda model: PixelEvaluator(LinkedRays(scene, model, behaviour), bound, FLOAT32_BITS))
+    if with_colors:
+        unclear = {place for place, color in enumerate(colors) if color is None}
+        for place in unclear:
+            pixel = pixels[place]
+            colors[place] = _colors(linked(model_of_light), pixel) or _colors(plain_light, pixel)
+        widest_radius = WIDE * _brightest(colors)
+        wide = {place for place, color in enumerate(colors) if color and widest(color.boxes) > widest_radius}
+        for place in wide - unclear:
+            colors[place] = _colors(linked(model_of_light), pixels[place]) or colors[place]
+    for place, hit in enumerate(hits):
+        if hit is None:
+            hits[place] = _first_hits(linked(error_model), pixels[place])
+    return _as_arrays(scene, error_model, colors, hits)
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ import flint
 import numpy as np
 
 from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet, feasible_set
-from raytruth.comparisons.matrix.cell_key import APART
+from raytruth.reference_tracer.certified_image import TRUTH_ROOMS
 from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
 from raytruth.reference_tracer.storage.source_digest import source_digest
 
@@ -25,20 +25,35 @@ if TYPE_CHECKING:
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.scenes.scene import Scene
 
+FEASIBLE_SET_ROOMS = (
+    *TRUTH_ROOMS,
+    "comparisons/error_models",
+    "comparisons/error_models/rasterisers",
+    "comparisons/feasible_sets",
+    "comparisons/records/srgb.py",  # of the output model
+    "scenes/exporters/triangle_soup.py",  # of rasterisers
+)
+"""What a feasible set depends on: the tracer that is evaluated, and what an error model does to it."""
+
 
 def kept_feasible_set(scene: Scene, error_model: ErrorModel, *, with_colors: bool = True) -> FeasibleSet:
     """As `feasible_set`: the one from the cache if neither the scene, the error model nor our code has changed since.
 
     There is one place in the cache for each scene's name and error model, so that it does not grow with each change.
     """
-    code = source_digest("scenes", "reference_tracer", "comparisons", without=APART)
-    key = _digest(scene.model_dump_json(), code, flint.__version__, flint.__FLINT_VERSION__, np.__version__)
+    key = feasible_set_key(scene)
     path = cache_folder() / "feasible" / f"{_digest(scene.name, repr(error_model), str(with_colors))}.npz"
     kept = _read(path, key)
     if kept is None:
         kept = feasible_set(scene, error_model, with_colors=with_colors)
         _write(path, key, kept)
     return kept
+
+
+def feasible_set_key(scene: Scene) -> str:
+    """Of all that the feasible sets of a scene depend on but the error model, which names their place."""
+    code = source_digest(*FEASIBLE_SET_ROOMS)
+    return _digest(scene.model_dump_json(), code, flint.__version__, flint.__FLINT_VERSION__, np.__version__)
 
 
 def _digest(*parts: str) -> str:

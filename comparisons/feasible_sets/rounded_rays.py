@@ -11,12 +11,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import arb
 
-from raytruth.comparisons.error_models.rasterisers.rasterisation import rasterisation_constants, rasterisation_overrides
-from raytruth.comparisons.error_models.ray_offsets import offset_constants, offset_overrides
-from raytruth.comparisons.error_models.triangle_points import triangle_point_constants, triangle_point_overrides
-from raytruth.comparisons.error_models.triangle_tests import triangle_test_constants, triangle_test_overrides
+from raytruth.comparisons.error_models.behaviours import behaviour_of
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.arithmetics.balls import MARGIN_BITS, Decisions, ball_arithmetic, rounded_ball_arithmetic
+from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, merged
 from raytruth.reference_tracer.arithmetics.linked_arithmetic import linked_arithmetic
 from raytruth.reference_tracer.arithmetics.linked_balls import condensed, enclose, enclosure
 from raytruth.reference_tracer.rendering import prepare
@@ -24,13 +22,12 @@ from raytruth.reference_tracer.source.scene_data import MATERIAL_INDEX, MATERIAL
 from raytruth.reference_tracer.source.traversal import NOTHING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.reference_tracer.rendering import PreparedScene
     from raytruth.scenes.scene import Scene
-
-    Overrides = Mapping[str, Callable[..., object]]
 
 Box = tuple[Any, Any, Any]
 """A ball for each channel."""
@@ -39,7 +36,10 @@ Ray = tuple[Any, ...]
 
 
 class RoundedRays(Protocol):
-    """A way to follow rays through one scene. Undecided comparisons ask the decisions."""
+    """A way to follow rays through one scene. Undecided comparisons ask the decisions.
+
+    Who follows a ray puts the arithmetic of the prepared scene in force.
+    """
 
     prepared: PreparedScene
     decisions: Decisions
@@ -55,31 +55,33 @@ class RoundedRays(Protocol):
 
 
 class PlainRays:
-    """Rays whose numbers are balls, obeying RoundedRays."""
+    """Rays whose numbers are balls, obeying RoundedRays.
 
-    def __init__(self, scene: Scene, error_model: ErrorModel, overrides: Overrides | None = None) -> None:
+    `behaviour` is what the renderer does otherwise besides what its error model says; its constants are balls.
+    """
+
+    def __init__(self, scene: Scene, error_model: ErrorModel, behaviour: Behaviour = IDEAL) -> None:
         self.decisions = Decisions()
-        arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model, scene))
-        self.prepared = prepare(scene, arithmetic, {**_overrides(error_model), **(overrides or {})})
-        store_indices(self.prepared, error_model.index_bits)
-        kernel = self.prepared.kernel
-        kernel.nearest_hit = RememberedHit(kernel.nearest_hit, self.decisions)
-        camera = _exact_camera(scene, error_model) or self.prepared
-        self._primary_ray = camera.kernel.primary_ray
-        self._frame = camera.kernel.camera_frame(camera.data)
         self._image_radius = error_model.image_radius
+        arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions)
+        with arithmetic.in_force():
+            self.prepared = prepare(scene, arithmetic, merged(behaviour_of(error_model, scene), behaviour))
+            store_indices(self.prepared, error_model.index_bits)
+            kernel = self.prepared.kernel
+            kernel.nearest_hit = RememberedHit(kernel.nearest_hit, self.decisions)
+            camera = _exact_camera(scene, error_model) or self.prepared
+            self._primary_ray = camera.kernel.primary_ray
+            self._frame = camera.kernel.camera_frame(camera.data)
 
     def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
         """As the protocol says."""
         x, y = arb(column + 0.5, self._image_radius), arb(line + 0.5, self._image_radius)
-        ray: tuple[Any, Any] = self._primary_ray(self._frame, x, y)
-        return ray
+        return self._primary_ray(self._frame, x, y)
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
         """As the protocol says."""
         children: list[Ray] = []
-        local: Box = self.prepared.kernel.trace_ray(self.prepared.data, ray, children)
-        return local, children
+        return self.prepared.kernel.trace_ray(self.prepared.data, ray, children), children
 
     def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
         """As the protocol says."""
@@ -87,18 +89,20 @@ class PlainRays:
 
 
 class LinkedRays:
-    """Rays whose numbers are linked balls, obeying RoundedRays."""
+    """Rays whose numbers are linked balls, obeying RoundedRays; made as PlainRays are."""
 
-    def __init__(self, scene: Scene, error_model: ErrorModel, overrides: Overrides | None = None) -> None:
+    def __init__(self, scene: Scene, error_model: ErrorModel, behaviour: Behaviour = IDEAL) -> None:
         self.decisions = Decisions()
-        arithmetic = linked_arithmetic(error_model.precision_bits, self.decisions, _constants(error_model, scene))
-        self.prepared = prepare(scene, arithmetic, {**_overrides(error_model), **(overrides or {})})
-        store_indices(self.prepared, error_model.index_bits)
-        self._exact_rays = PlainRays(scene, error_model) if error_model.rasterisation else None
-        frame = self.prepared.kernel.camera_frame(self.prepared.data)
-        numbers = iter(condensed([number for vector in frame for number in vector]))
-        self._frame = tuple(tuple(next(numbers) for _ in vector) for vector in frame)
         self._image_radius = error_model.image_radius
+        self._exact_rays = PlainRays(scene, error_model) if error_model.rasterisation else None
+        arithmetic = linked_arithmetic(error_model.precision_bits, self.decisions)
+        with arithmetic.in_force():
+            in_balls = merged(behaviour_of(error_model, scene), behaviour)
+            self.prepared = prepare(scene, arithmetic, in_balls.with_numbers(arithmetic.functions["ball"]))
+            store_indices(self.prepared, error_model.index_bits)
+            frame = self.prepared.kernel.camera_frame(self.prepared.data)
+            numbers = iter(condensed([number for vector in frame for number in vector]))
+            self._frame = tuple((next(numbers), next(numbers), next(numbers)) for _ in frame)
 
     def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
         """As the protocol says."""
@@ -174,25 +178,6 @@ def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int
         return NOTHING, ()
     point = kernel.along(origin, direction, distance)
     return primitive, (distance, *point, *kernel.surface_normal(data, primitive, point))
-
-
-def _overrides(error_model: ErrorModel) -> Overrides:
-    """What this renderer computes otherwise than the truth does."""
-    return {
-        **offset_overrides(error_model),
-        **triangle_test_overrides(error_model),
-        **triangle_point_overrides(error_model),
-        **rasterisation_overrides(error_model.rasterisation),
-    }
-
-
-def _constants(error_model: ErrorModel, scene: Scene) -> dict[str, Any]:
-    return {
-        **offset_constants(error_model),
-        **triangle_test_constants(),
-        **triangle_point_constants(error_model),
-        **rasterisation_constants(error_model.rasterisation, scene),
-    }
 
 
 def _condensed_ray(origin: Any, direction: Any) -> tuple[Any, Any]:

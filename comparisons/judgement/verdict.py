@@ -18,13 +18,16 @@ from raytruth.comparisons.noise.mean_test import SIGNIFICANCE, StochasticOutcome
 from raytruth.comparisons.noise.pixel_areas import area_means
 from raytruth.comparisons.noise.splat_bound import largest_splats
 from raytruth.comparisons.records.pixel_evidence import PixelEvidence, pixel_evidence
+from raytruth.comparisons.records.renderings import Rays
 from raytruth.comparisons.records.results import Judgement, StochasticTest, Verdict
+from raytruth.reference_tracer.rendering import primary_rays
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
-    from raytruth.comparisons.records.renderings import Image, Rays, Rendering
+    from raytruth.comparisons.feasible_sets.radiance_bound import RadianceBound
+    from raytruth.comparisons.records.renderings import Image, Rendering
     from raytruth.scenes.scene import Scene
 
 
@@ -36,6 +39,13 @@ class Evidence:
     truth: NDArray[np.float64]
     rays: Rays
     feasible: FeasibleSet
+    bound: RadianceBound | None
+    """On what any ray can bring back; None where none is known, and so no random samples can be judged."""
+
+
+def gather_evidence(scene: Scene, truth: NDArray[np.float64], feasible: FeasibleSet) -> Evidence:
+    """The evidence for a truth, shape (height, width, 3), and a feasible set of the scene."""
+    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible, radiance_bound(scene))
 
 
 @dataclass(frozen=True)
@@ -64,7 +74,7 @@ def judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
     """The mean of many samples against the hull of each pixel's feasible set."""
     assert rendering.image is not None
     assert rendering.batch_means is not None
-    bound = radiance_bound(evidence.scene)
+    bound = evidence.bound
     assert bound is not None, "comparability.py lets no stochastic scene through without a bound"
     unjudged = evidence.feasible.outcomes == 0
     # A sample is rounded as all numbers are; one part in 2^20 is far above a float32 rounding of the largest.

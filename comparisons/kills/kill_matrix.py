@@ -21,9 +21,11 @@ from raytruth.comparisons.matrix.quick_suite import small
 from raytruth.comparisons.measures.public_gates import gates_that_reject
 from raytruth.comparisons.processes.time_limit import TookTooLongError, cpu_seconds
 from raytruth.comparisons.records.renderings import FirstHits, Rays
-from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, MATH, Arithmetic
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, INTERPRETED_FLOAT32
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.instantiation import functions_of
 from raytruth.reference_tracer.rendering import first_hits, prepare, primary_rays, render_prepared
+from raytruth.reference_tracer.source.scene_data import SPHERE_MATERIAL, TRIANGLE_MATERIAL
 from raytruth.reference_tracer.source.traversal import NOTHING
 from raytruth.scenes.requirements import required_features
 
@@ -41,18 +43,6 @@ if TYPE_CHECKING:
 LONGEST_SECONDS, TIMES_AS_LONG = 1.0, 20.0
 # What code that is wrong raises: division by zero, roots of negative numbers, complex powers, places that do not exist.
 ERRORS = (ArithmeticError, ValueError, TypeError, IndexError, MemoryError, TookTooLongError)
-FLOAT32 = Arithmetic(
-    "interpreted float32",
-    np.float32,
-    {
-        "sqrt": np.sqrt,
-        "tan": np.tan,
-        "exp": np.exp,
-        "floor": np.floor,
-        "inf": np.float32(np.inf),
-        "pi": np.float32(MATH["pi"]),
-    },
-)
 
 
 @dataclass(frozen=True)
@@ -143,8 +133,8 @@ class _Bench:
 
 def rendered(scene: Scene, subject: Subject) -> NDArray[np.float64]:
     """What is read from the file that the subject writes. Raises what its code raises."""
-    arithmetic = FLOAT32 if subject.numbers == "float32" else FLOAT
-    radiance: Any = render_prepared(prepare(scene, arithmetic, subject.overrides))
+    arithmetic = INTERPRETED_FLOAT32 if subject.numbers == "float32" else FLOAT
+    radiance: Any = render_prepared(prepare(scene, arithmetic, _behaviour(subject)))
     image = np.asarray(radiance.astype(np.float64))
     if subject.finish is not None:
         image = np.array(subject.finish(image), dtype=np.float64)
@@ -153,13 +143,17 @@ def rendered(scene: Scene, subject: Subject) -> NDArray[np.float64]:
     return image
 
 
+def _behaviour(subject: Subject) -> Behaviour:
+    return Behaviour(subject.overrides, name=subject.name)
+
+
 def _first_hits_of(scene: Scene, subject: Subject) -> FirstHits:
     """Distances and primitives as the subject tells them; positions and normals follow from these."""
     right = prepare(scene, FLOAT)
-    depths, primitives = first_hits(prepare(scene, FLOAT, subject.overrides))
+    depths, primitives = first_hits(prepare(scene, FLOAT, _behaviour(subject)))
     rays = Rays(*primary_rays(scene))
     position, normal = np.full((2, *rays.origins.shape), np.nan)
-    count = right.kernel.rows_of(right.data, 2) + right.kernel.rows_of(right.data, 6)
+    count = right.kernel.rows_of(right.data, SPHERE_MATERIAL) + right.kernel.rows_of(right.data, TRIANGLE_MATERIAL)
     for line, column in np.argwhere(primitives != NOTHING).tolist():
         origin, direction = rays.origins[line, column].tolist(), rays.directions[line, column].tolist()
         point = right.kernel.along(origin, direction, depths[line, column])

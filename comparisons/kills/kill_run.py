@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from raytruth.comparisons.faults.catalogue import all_faults
 from raytruth.comparisons.faults.variants import all_variants
+from raytruth.comparisons.feasible_sets.kept_feasible_sets import FEASIBLE_SET_ROOMS
 from raytruth.comparisons.kills.kill_matrix import KillCell, SceneKills, kills_on
 from raytruth.comparisons.kills.set_cover import smallest_cover
 from raytruth.comparisons.measures.public_gates import GATES
@@ -19,32 +20,44 @@ from raytruth.comparisons.records.kill_results import RESULTS_FILE, FaultResult,
 from raytruth.reference_tracer.certified_image import collect_garbage_rarely
 from raytruth.reference_tracer.storage.source_digest import source_digest
 from raytruth.reference_tracer.storage.whole_files import write_whole
-from raytruth.scenes.library import open_scene
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
     from raytruth.comparisons.faults.fault import Subject
+    from raytruth.scenes.scene import Scene
 
 KEPT_FOLDER = "kills"
 
+KILL_ROOMS = (
+    *FEASIBLE_SET_ROOMS,
+    "comparisons/faults",
+    "comparisons/judgement",
+    "comparisons/kills",
+    "comparisons/matrix/quick_suite.py",  # how large the images are
+    "comparisons/measures",
+    "comparisons/processes",
+    "comparisons/records",
+)
+"""What kills depend on: the subjects, and how these are rendered, judged, and held to the gates of others."""
 
-def run_kills(sources: Sequence[str], directory: Path, jobs: int, *, fresh: bool) -> Iterator[SceneKills]:
-    """Each scene as it is finished; taken from the directory where neither it nor any of our code has changed."""
+
+def run_kills(scenes: Sequence[Scene], directory: Path, jobs: int, *, fresh: bool) -> Iterator[SceneKills]:
+    """Each scene as it is finished; taken from the directory if neither it nor code in KILL_ROOMS has changed."""
     waiting = []
-    for source in sources:
-        kept = None if fresh else _kept(directory, source)
+    for scene in scenes:
+        kept = None if fresh else _kept(directory, scene)
         if kept is not None:
             yield kept
         else:
-            waiting.append(source)
+            waiting.append(scene)
     if not waiting:
         return
     with ProcessPoolExecutor(min(jobs, len(waiting)), get_context("spawn"), collect_garbage_rarely) as pool:
         # Deep ray trees take longest: first, so that none is left for the end.
-        waiting.sort(key=lambda source: -open_scene(source).max_depth)
-        running = {pool.submit(_kills_of, source): source for source in waiting}
+        waiting.sort(key=lambda scene: -scene.max_depth)
+        running = {pool.submit(_kills_of, scene): scene for scene in waiting}
         try:
             for done in as_completed(running):
                 kills = done.result()
@@ -75,8 +88,8 @@ def write_kill_results(directory: Path, results: KillResults) -> None:
     write_whole(directory / RESULTS_FILE, results.model_dump_json(indent=1))
 
 
-def _kills_of(source: str) -> SceneKills:
-    return kills_on(open_scene(source), [*all_faults().values(), *all_variants().values()])
+def _kills_of(scene: Scene) -> SceneKills:
+    return kills_on(scene, [*all_faults().values(), *all_variants().values()])
 
 
 def _fault_result(name: str, kills: Sequence[SceneKills]) -> FaultResult:
@@ -123,19 +136,19 @@ def _finite(margin: float) -> float | None:
     return margin if math.isfinite(margin) else None
 
 
-def _kept_path(directory: Path, source: str) -> Path:
-    return directory / KEPT_FOLDER / f"{open_scene(source).name}.json"
+def _kept_path(directory: Path, scene: Scene) -> Path:
+    return directory / KEPT_FOLDER / f"{scene.name}.json"
 
 
-def _key(source: str) -> str:
-    parts = (open_scene(source).model_dump_json(), source_digest("scenes", "reference_tracer", "comparisons"))
-    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+def kills_key(scene: Scene) -> str:
+    """Of all that the kills of a scene depend on."""
+    return hashlib.sha256(f"{scene.model_dump_json()}\n{source_digest(*KILL_ROOMS)}".encode()).hexdigest()
 
 
-def _kept(directory: Path, source: str) -> SceneKills | None:
+def _kept(directory: Path, scene: Scene) -> SceneKills | None:
     try:
-        kept = json.loads(_kept_path(directory, source).read_text(encoding="utf-8"))
-        if kept["key"] != _key(source):
+        kept = json.loads(_kept_path(directory, scene).read_text(encoding="utf-8"))
+        if kept["key"] != kills_key(scene):
             return None
         cells = tuple(KillCell(**(cell | {"gates": tuple(cell["gates"])})) for cell in kept["cells"])
         return SceneKills(kept["scene"], cells, kept["seconds"])
@@ -143,7 +156,7 @@ def _kept(directory: Path, source: str) -> SceneKills | None:
         return None
 
 
-def _keep(directory: Path, source: str, kills: SceneKills) -> None:
-    path = _kept_path(directory, source)
+def _keep(directory: Path, scene: Scene, kills: SceneKills) -> None:
+    path = _kept_path(directory, scene)
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_whole(path, json.dumps({"key": _key(source), **asdict(kills)}))
+    write_whole(path, json.dumps({"key": kills_key(scene), **asdict(kills)}))

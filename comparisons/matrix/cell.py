@@ -7,7 +7,7 @@ import shutil
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import mkdtemp
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,9 +22,10 @@ from raytruth.comparisons.records.results import Cell, Images, Verdict
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from raytruth.comparisons.judgement.verdict import Evidence
+    from raytruth.comparisons.judgement.verdict import Evidence, Judged
     from raytruth.comparisons.records.renderings import Rendering
     from raytruth.comparisons.renderers.protocol import Integrator, Renderer
+    from raytruth.scenes.scene import Scene
 
 CELL_FILE = "cell.json"
 TRUTH_FILE = "truth.exr"
@@ -34,13 +35,13 @@ UNFINISHED_CELL = ".unfinished-"
 """What the name of a cell's folder begins with until it is whole."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CellPlace:
     """Which cell, and what identifies everything it depends on."""
 
-    scene: str
-    renderer: str
-    integrator: str
+    scene: Scene
+    renderer: Renderer
+    integrator: Integrator
     key: str
     source: str
     """What names the scene on the command line: its library name or its path."""
@@ -50,21 +51,21 @@ class CellPlace:
     @property
     def folder(self) -> str:
         """Relative to the results directory."""
-        return f"cells/{self.scene}/{self.renderer}-{self.integrator}"
+        return f"cells/{self.scene.name}/{self.renderer.name}-{self.integrator.name}"
 
     @property
     def command(self) -> str:
         """The command that repeats the cell."""
-        return f"raytruth run {shlex.quote(self.source)} --renderer {self.renderer} --fresh"
+        return f"raytruth run {shlex.quote(self.source)} --renderer {self.renderer.name} --fresh"
 
 
-def run_cell(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence, directory: Path) -> Cell:
+def run_cell(place: CellPlace, depth: int, evidence: Evidence, directory: Path) -> Cell:
     """Render and judge in a temporary folder, which then takes the cell's place; a failed render is an error cell."""
     target = directory / place.folder
     target.parent.mkdir(parents=True, exist_ok=True)
     folder = Path(mkdtemp(prefix=f"{UNFINISHED_CELL}{target.name}-", dir=target.parent))
     try:
-        cell = _judged(place, renderer, depth, evidence, folder)
+        cell = _judged(place, depth, evidence, folder)
         for scratch in (*folder.glob("*.npz"), *folder.glob("job.json")):
             scratch.unlink()
         (folder / CELL_FILE).write_text(cell.model_dump_json(indent=1), encoding="utf-8")
@@ -76,29 +77,25 @@ def run_cell(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidenc
     return cell
 
 
-def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence, folder: Path) -> Cell:
+def settled_cell(place: CellPlace, verdict: Verdict, reason: str) -> Cell:
+    """The cell of what is not rendered, or was lost."""
+    return Cell(**_names(place), verdict=verdict, reason=reason)
+
+
+def _judged(place: CellPlace, depth: int, evidence: Evidence, folder: Path) -> Cell:
     try:
-        rendering = renderer.render(evidence.scene, place.integrator, depth, evidence.rays, folder)
-        _check_sizes(rendering, integrator_of(renderer, place.integrator).gives, evidence.truth)
+        rendering = place.renderer.render(place.scene, place.integrator.name, depth, evidence.rays, folder)
+        _check_sizes(rendering, place.integrator.gives, evidence.truth)
     except RendererError as error:
-        log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
-        return Cell(**_names(place), version=place.version, verdict=Verdict.ERROR, reason=str(error), log=log)
+        return Cell(**_circumstances(place, folder), verdict=Verdict.ERROR, reason=str(error))
     hits = None if rendering.first_hits is None else judge_first_hits(rendering.first_hits, evidence.feasible)
-    log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
+    told = _circumstances(place, folder) | {"seconds": rendering.seconds, "first_hits": hits}
     if rendering.image is None:
         assert hits is not None, "checked with the sizes"
         verdict, reason = verdict_of_first_hits(hits)
-        return Cell(
-            **_names(place),
-            verdict=verdict,
-            reason=reason,
-            seconds=rendering.seconds,
-            version=place.version,
-            first_hits=hits,
-            log=log,
-        )
-    truth = f"cells/{place.scene}/{TRUTH_FILE}"
-    if integrator_of(renderer, place.integrator).follows == "light paths":
+        return Cell(**told, verdict=verdict, reason=reason)
+    truth = f"cells/{place.scene.name}/{TRUTH_FILE}"
+    if place.integrator.follows == "light paths":
         evidence = of_pixel_areas(evidence)
         truth = f"{place.folder}/{AREA_MEANS_FILE}"
         write_image(folder / AREA_MEANS_FILE, evidence.truth.astype(np.float32))
@@ -111,44 +108,47 @@ def _judged(place: CellPlace, renderer: Renderer, depth: int, evidence: Evidence
     if hits is not None and hits.failing:
         verdict = Verdict.FAIL
         reason = f"{hits.failing} first hits lie outside their feasible sets; {reason}"
-    write_image(folder / "render.exr", rendering.image.astype(np.float32))
-    write_image(folder / "tolerances.exr", _in_float32(judged.distances))
-    write_pixel_evidence(folder / "feasible.exr", judged.pixels)
     return Cell(
-        **_names(place),
+        **told,
         verdict=verdict,
         reason=reason,
         largest_error=largest_error(rendering.image, evidence.truth, evidence.feasible),
-        seconds=rendering.seconds,
-        version=place.version,
         judgement=judged.judgement,
         stochastic=judged.test,
-        first_hits=hits,
-        images=Images(
-            render=f"{place.folder}/render.exr",
-            truth=truth,
-            tolerances=f"{place.folder}/tolerances.exr",
-            feasible=f"{place.folder}/feasible.exr",
-            variance=_write_variance(rendering, place, folder),
-        ),
-        log=log,
+        images=_written(rendering, judged, truth, place, folder),
     )
 
 
-def _names(place: CellPlace) -> dict[str, str]:
+def _names(place: CellPlace) -> dict[str, Any]:
+    """What tells the cell apart, whether it was rendered or not."""
     return {
-        "scene": place.scene,
-        "renderer": place.renderer,
-        "integrator": place.integrator,
+        "scene": place.scene.name,
+        "renderer": place.renderer.name,
+        "integrator": place.integrator.name,
         "command": place.command,
-        "source": place.source,
         "key": place.key,
     }
 
 
-def integrator_of(renderer: Renderer, name: str) -> Integrator:
-    """The renderer's integrator of that name."""
-    return next(known for known in renderer.integrators if known.name == name)
+def _circumstances(place: CellPlace, folder: Path) -> dict[str, Any]:
+    """Of a cell that was rendered, whatever came of it."""
+    log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
+    return _names(place) | {"source": place.source, "version": place.version, "log": log}
+
+
+def _written(rendering: Rendering, judged: Judged, truth: str, place: CellPlace, folder: Path) -> Images:
+    """Write the images of the cell; `truth` is the one that it was judged by."""
+    assert rendering.image is not None, "first hits alone have no images"
+    write_image(folder / "render.exr", rendering.image.astype(np.float32))
+    write_image(folder / "tolerances.exr", _in_float32(judged.distances))
+    write_pixel_evidence(folder / "feasible.exr", judged.pixels)
+    return Images(
+        render=f"{place.folder}/render.exr",
+        truth=truth,
+        tolerances=f"{place.folder}/tolerances.exr",
+        feasible=f"{place.folder}/feasible.exr",
+        variance=_write_variance(rendering, place, folder),
+    )
 
 
 def _check_sizes(rendering: Rendering, gives: str, truth: NDArray[np.float64]) -> None:

@@ -9,6 +9,7 @@ import inspect
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from raytruth.comparisons.feasible_sets.kept_feasible_sets import FEASIBLE_SET_ROOMS
 from raytruth.reference_tracer.storage.source_digest import ROOT, files_digest, source_digest
 
 if TYPE_CHECKING:
@@ -17,19 +18,36 @@ if TYPE_CHECKING:
     from raytruth.comparisons.renderers.protocol import Integrator, Renderer
     from raytruth.scenes.scene import Scene
 
-APART = ("comparisons/renderers", "scenes/exporters")
-"""Folders whose files belong to single renderers. All other code of ours belongs to every cell."""
+CELL_ROOMS = (
+    *FEASIBLE_SET_ROOMS,
+    "comparisons/judgement",
+    "comparisons/matrix",
+    "comparisons/measures",
+    "comparisons/noise",
+    "comparisons/processes",
+    "comparisons/records",
+    "comparisons/renderers/protocol.py",
+)
+"""What every cell depends on: the truth, the feasible set, and how a renderer is run, judged and measured."""
+
+ADAPTERS = ("comparisons/renderers", "scenes/exporters")
+"""Folders whose files belong to single renderers, and so to their cells alone."""
 
 
-def cell_key(scene: Scene, renderer: Renderer, integrator: Integrator, version: str | None) -> str:
-    """Of the scene, the renderer's version, its adapter and exporter, and all code that judges."""
-    judging = source_digest("scenes", "reference_tracer", "comparisons", without=APART)
-    parts = (scene.model_dump_json(), renderer.name, integrator.name, str(version), judging, adapter_digest(renderer))
+def scene_digest(scene: Scene) -> str:
+    """Of all that a scene says, its name included."""
+    return hashlib.sha256(scene.model_dump_json().encode()).hexdigest()
+
+
+def cell_key(of_scene: str, renderer: Renderer, integrator: Integrator, version: str | None) -> str:
+    """Of the scene, by its `scene_digest`, the renderer's version, its adapter and exporter, and CELL_ROOMS."""
+    judging = source_digest(*CELL_ROOMS)
+    parts = (of_scene, renderer.name, integrator.name, str(version), judging, adapter_digest(renderer))
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
 
 
 def adapter_digest(renderer: Renderer) -> str:
-    """Of the file of the renderer's class, and of those in the folders APART that it uses."""
+    """Of the file of the renderer's class, and of those in the folders ADAPTERS that it uses."""
     return _digest_with_imports(Path(inspect.getfile(type(renderer))))
 
 
@@ -38,33 +56,44 @@ def _digest_with_imports(path: Path) -> str:
     return files_digest(sorted(files_used(path, ROOT)))
 
 
-def files_used(path: Path, root: Path) -> set[Path]:
-    """The file, and those in the folders APART under `root` that it imports or starts, directly or through others."""
+def files_used(path: Path, root: Path, folders: tuple[str, ...] = ADAPTERS) -> set[Path]:
+    """The file, and those in the folders that it imports or starts, directly or through others of them.
+
+    `root` is the folder of the package `raytruth`, and `folders` are relative to it.
+    """
     used: set[Path] = set()
     waiting = [path]
     while waiting:
         current = waiting.pop()
         if current not in used:
             used.add(current)
-            waiting += _files_named(current, root)
+            waiting += (file for file in _files_named(current, root) if _is_in(file.relative_to(root), folders))
     return used
 
 
+def _is_in(file: Path, folders: tuple[str, ...]) -> bool:
+    return any(file.is_relative_to(folder) for folder in folders)
+
+
 def _files_named(path: Path, root: Path) -> Iterator[Path]:
-    """The files APART whose modules a file names: in an import, or in a text, as with `python -m`."""
-    for name in _names(ast.parse(path.read_text(encoding="utf-8"))):
-        file = root / f"{name.replace('.', '/')}.py"
-        if any(name.startswith(f"{folder.replace('/', '.')}.") for folder in APART) and file.is_file():
+    """Our files whose modules a file names: in an import, or in a text, as with `python -m`."""
+    for name in _names(ast.parse(path.read_bytes())):
+        package, _, module = name.partition(".")
+        file = root / f"{module.replace('.', '/')}.py"
+        if package == "raytruth" and file.is_file():
             yield file
 
 
-def _names(module: ast.AST) -> Iterator[str]:
+def _names(node: ast.AST) -> Iterator[str]:
     """All that may be the name of a module: what is imported from a package may be one, too."""
-    for node in ast.walk(module):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module is not None:
-            yield node.module
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            yield node.value
+    if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+        return  # what is imported for a type is not run
+    if isinstance(node, ast.Import):
+        yield from (alias.name for alias in node.names)
+    elif isinstance(node, ast.ImportFrom) and node.module is not None:
+        yield node.module
+        yield from (f"{node.module}.{alias.name}" for alias in node.names)
+    elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+    for child in ast.iter_child_nodes(node):
+        yield from _names(child)

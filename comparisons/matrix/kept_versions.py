@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.matrix.cell_key import adapter_digest
+from raytruth.reference_tracer.certified_image import TRUTH_ROOMS
 from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
 from raytruth.reference_tracer.storage.source_digest import source_digest
 
@@ -21,6 +22,17 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from raytruth.comparisons.renderers.protocol import Renderer
+
+TRIAL_ROOMS = (
+    *TRUTH_ROOMS,
+    "comparisons/error_models",
+    "comparisons/error_models/rasterisers",
+    "comparisons/processes",
+    "comparisons/records",
+    "comparisons/renderers/protocol.py",
+    "scenes/exporters/triangle_soup.py",
+)
+"""What a trial depends on beside the adapter: what adapters share, and the tracer, which is a renderer, too."""
 
 # Debian writes these whenever it installs or removes a library; elsewhere at least the first of them is there.
 SYSTEM_FILES = ("/etc/ld.so.cache", "/var/lib/dpkg/status")
@@ -54,7 +66,7 @@ def _file(renderer: Renderer) -> Path:
 
 def _circumstances(renderer: Renderer) -> str:
     """A digest of what a trial depends on, as far as that can be told without one."""
-    code = source_digest("scenes", "reference_tracer", "comparisons")
+    code = source_digest(*TRIAL_ROOMS)
     steering = sorted(item for item in os.environ.items() if item[0].startswith(STEERING))
     # A renderer that is a program has the program's name.
     files = map(Path, filter(None, (sys.executable, shutil.which(renderer.name), *SYSTEM_FILES)))

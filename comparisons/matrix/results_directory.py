@@ -25,6 +25,7 @@ from raytruth.comparisons.records.results import (
     SceneRecord,
 )
 from raytruth.comparisons.renderers.catalogue import family_of
+from raytruth.comparisons.renderers.protocol import shown_error_model
 from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.scenes.light_paths import whitted_class
 from raytruth.scenes.requirements import required_features
@@ -165,7 +166,7 @@ def _renderer_record(renderer: Renderer, its_version: str | None) -> RendererRec
         name=renderer.name,
         version=its_version,
         install=renderer.install,
-        error_model=renderer.error_model.description,
+        error_model=shown_error_model(renderer, its_version).description,
         integrators={integrator.name: integrator.light_paths.format(depth="n") for integrator in renderer.integrators},
         family=family_of(renderer.name),
     )

@@ -15,6 +15,8 @@ from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.rendering import prepare
 from raytruth.reference_tracer.source.scene_data import CAMERA_MEDIUM, integer_of
 from raytruth.reference_tracer.source.traversal import NOTHING
+from raytruth.scenes.materials import Dielectric, Emission, Mirror
+from raytruth.scenes.requirements import used_materials
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -65,8 +67,13 @@ def find_lobes(scene: Scene) -> Lobes:
     """Walk the ray tree of every pixel in Python floats.
 
     The scene must have a `radiance_bound`: then its dielectrics obey Fresnel's equations, and what is mirror or
-    dielectric neither shines nor is lit, so that light comes from the ends of branches alone.
+    dielectric neither shines nor is lit, so that light comes from the ends of branches alone. Raises ValueError for a
+    scene with a term that has no such bound, as all have that are not known here.
     """
+    for material in used_materials(scene):
+        for key, term in material.terms().items():
+            if not isinstance(term, Mirror | Dielectric | Emission):
+                raise ValueError(f"the lobes of a surface with the term {key} are not known")
     camera = scene.camera
     walker = _Walker(scene)
     paths = [

@@ -23,7 +23,7 @@ from raytruth.comparisons.noise.pixel_areas import enlarged
 from raytruth.reference_tracer.rendering import first_hits, prepare, primary_rays
 from raytruth.reference_tracer.tables import triangles_of
 from raytruth.scenes.lights import ConstantBackground, PointLight
-from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.materials import Diffuse, colors_of
 from raytruth.scenes.requirements import used_materials
 from raytruth.scenes.shapes import Sphere
 
@@ -72,8 +72,8 @@ def largest_splats(scene: Scene) -> Array:
 
 
 def _is_diffuse(material: Material) -> bool:
-    others = (material.mirror, material.dielectric, material.emission, material.specular, material.ambient)
-    return others.count(None) == len(others)
+    """And has no other term, known here or not."""
+    return all(isinstance(term, Diffuse) for term in material.terms().values())
 
 
 def _largest_intensity(scene: Scene) -> Array:
@@ -99,10 +99,8 @@ def _reflectances(scene: Scene) -> Array:
 def _largest_reflectance(material: Material) -> Array:
     if material.diffuse is None:
         return np.zeros(3)
-    texture = material.diffuse.reflectance
-    if isinstance(texture, CheckerboardColor):
-        return np.maximum(texture.checkerboard.even, texture.checkerboard.odd)
-    return np.array(texture)
+    largest: Array = np.max(colors_of(material.diffuse.reflectance), axis=0)
+    return largest
 
 
 def _normals(scene: Scene, points: Array, primitives: NDArray[np.int64]) -> Array:

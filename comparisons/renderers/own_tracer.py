@@ -12,9 +12,12 @@ from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.records.renderings import FirstHits, Rendering
 from raytruth.comparisons.renderers.protocol import Integrator
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.arithmetics.instantiation import SOURCE_FEATURES
 from raytruth.reference_tracer.rendering import first_hits, prepare, render_prepared
 from raytruth.reference_tracer.source.traversal import NOTHING
+from raytruth.scenes.features import Feature, missing_features
 from raytruth.scenes.light_paths import WHITTED
+from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,6 +25,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.records.renderings import Rays
     from raytruth.scenes.scene import Scene
 
+EXPRESSES = frozenset(map(Feature, SOURCE_FEATURES))
 FLOAT64_BITS = 53
 # The order of operations is that of the truth, but tangents, exponentials and powers come from the platform's
 # mathematical library, which may err by up to two units in the last place: four roundoffs.
@@ -37,15 +41,16 @@ class ReferenceTracer:
         f"float64 with {LIBRARY_BITS} bits for the mathematical library",
         precision_bits=FLOAT64_BITS - LIBRARY_BITS,
     )
+    error_models = (("*", error_model),)  # our own code, whatever the package's number
     install = "part of raytruth"
 
     def version(self) -> str:
         """That of the package."""
         return f"raytruth {version('raytruth')}"
 
-    def refuses(self, scene: Scene) -> str | None:  # noqa: ARG002 - the protocol's signature
-        """Nothing: what a scene can state, the tracer computes."""
-        return None
+    def refuses(self, scene: Scene) -> str | None:
+        """Nothing: what a scene can state, the tracer computes, unless its source has never heard of it."""
+        return missing_features("raytruth's tracer", EXPRESSES, required_features(scene))
 
     def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature
         """Never."""

@@ -73,10 +73,11 @@ class PovRay:
         # source/base/image/encoding.h, `IntEncode`: floor(clip(x, 0, 1)·65535 + 0.5).
         output=OutputModel("uint16", bracketed=True, color_error=COLOR_ERROR),
     )
+    error_models = (("POV-Ray 3.7.0.*", error_model),)  # all are corrections of one release
     install = "apt install povray"
 
     def version(self) -> str | None:
-        """As the program tells it, or None where there is none or another than 3.7."""
+        """As the program tells it, or None where there is none."""
         return _version()
 
     def refuses(self, scene: Scene) -> str | None:
@@ -134,7 +135,7 @@ def _whole(image: NDArray[np.float64]) -> Image:
 
 @functools.cache
 def _version() -> str | None:
-    """The program's own word; the constants above are those of 3.7."""
+    """The program's own word."""
     program = shutil.which("povray")
     if program is None:
         return None
@@ -142,5 +143,5 @@ def _version() -> str | None:
         told = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=20, check=False)
     except (OSError, subprocess.TimeoutExpired):
         return None
-    found = re.search(r"^POV-Ray (3\.7\S*)", told.stdout + told.stderr, re.MULTILINE)
+    found = re.search(r"^POV-Ray (\d\S*)", told.stdout + told.stderr, re.MULTILINE)
     return f"POV-Ray {found[1]}" if found else None

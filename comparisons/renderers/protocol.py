@@ -1,7 +1,8 @@
-"""The protocol that every renderer obeys."""
+"""The protocol that every renderer obeys, and which of its versions can be judged."""
 
 from __future__ import annotations
 
+import fnmatch
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, Protocol
 
@@ -28,7 +29,7 @@ class Integrator:
 
 
 class Renderer(Protocol):
-    """A renderer as the matrix sees it."""
+    """A renderer as the matrix sees it. It travels to other processes, and so can be pickled."""
 
     @property
     def name(self) -> str:
@@ -39,8 +40,11 @@ class Renderer(Protocol):
         """What it can compute."""
 
     @property
-    def error_model(self) -> ErrorModel:
-        """What its arithmetic may do to the result."""
+    def error_models(self) -> tuple[tuple[str, ErrorModel], ...]:
+        """What its arithmetic may do to the result, each after the versions whose source that was derived from.
+
+        Versions are a pattern of what `version` tells, in which `*` stands for anything; the first that fits holds.
+        """
 
     @property
     def install(self) -> str:
@@ -57,3 +61,29 @@ class Renderer(Protocol):
 
     def render(self, scene: Scene, integrator: str, depth: int, rays: Rays, folder: Path) -> Rendering:
         """Render in a process of its own; its files and `log.txt` stay in `folder`. Raises RendererError."""
+
+
+def error_model_of(renderer: Renderer, version: str | None) -> ErrorModel | None:
+    """The renderer's error model of this version; None for a version that none of its error models was derived from."""
+    fitting = (model for pattern, model in renderer.error_models if fnmatch.fnmatchcase(version or "", pattern))
+    return next(fitting, None)
+
+
+def shown_error_model(renderer: Renderer, version: str | None) -> ErrorModel:
+    """The renderer's error model of this version, or the last of all where none is."""
+    return error_model_of(renderer, version) or renderer.error_models[-1][1]
+
+
+def why_unavailable(renderer: Renderer, version: str | None) -> str | None:
+    """Why a renderer that tells this version cannot be judged here, as what follows 'is'; None if it can."""
+    if version is None:
+        return f"not installed: {renderer.install}"
+    if error_model_of(renderer, version) is None:
+        derived = f"what it may deviate was derived from the source of {versions_in_words(renderer)}"
+        return f"not judged in this version: {version} is installed, and {derived}; install that"
+    return None
+
+
+def versions_in_words(renderer: Renderer) -> str:
+    """The versions that its error models were derived from."""
+    return " or ".join("any version" if pattern == "*" else pattern for pattern, _ in renderer.error_models)

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from contextlib import nullcontext
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
 from raytruth.reference_tracer.arithmetics.compilation import compiled_module, compiled_text
 from raytruth.reference_tracer.arithmetics.instantiation import COMPILED_ENTRY_POINTS, ENTRY_POINTS, kernel_source
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
+    from contextlib import AbstractContextManager
 
     from numpy.typing import NDArray
 
-Kernel = Any
-"""The functions of the tracer's source as attributes."""
+    from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
+    from raytruth.reference_tracer.arithmetics.kernel import Kernel
 
 
 @dataclass(frozen=True)
@@ -35,6 +38,9 @@ class Arithmetic:
     """For balls: comparisons are calls, and forms that only rounding calls for are left out."""
     rounded_operations: bool = False
     """Each result of an operation is rounded: by the function `rounded`, or by the factor `roundoff_factor`."""
+    in_force: Callable[[], AbstractContextManager[object]] = nullcontext
+    """A context at whose precision its numbers are made and computed with: balls have one precision for the whole
+    process, floats have their own."""
 
     def numbers(self, values: NDArray[np.float64]) -> Any:
         """One-dimensional values as numbers of this type: an array for compiled code, else a list, which is quicker."""
@@ -64,6 +70,19 @@ FLOAT32 = Arithmetic(
     {**MATH, "inf": np.float32(math.inf), "pi": np.float32(math.pi)},
     compiled=True,
 )
+INTERPRETED_FLOAT32 = Arithmetic(
+    "interpreted float32",
+    np.float32,
+    {
+        "sqrt": np.sqrt,
+        "tan": np.tan,
+        "exp": np.exp,
+        "floor": np.floor,
+        "inf": np.float32(math.inf),
+        "pi": np.float32(math.pi),
+    },
+)
+"""NumPy's numbers, which round as compiled ones do, for kernels that are used too little to be compiled."""
 
 
 class Namespace:
@@ -73,26 +92,33 @@ class Namespace:
         self.__dict__ = names
 
 
-def make_kernel(
-    arithmetic: Arithmetic,
-    features: Collection[str],
-    overrides: Mapping[str, Callable[..., object]] | None = None,
-) -> Kernel:
-    """The tracer for one number type, with these features and no others, and with some functions overridden."""
+def make_kernel(arithmetic: Arithmetic, features: Collection[str], behaviour: Behaviour = IDEAL) -> Kernel:
+    """The tracer for one number type, with these features and no others, and with this behaviour.
+
+    Raises what `kernel_source` raises; ValueError also for a constant with the name of one of the arithmetic's
+    functions; TypeError for a list of numbers in a kernel that is compiled.
+    """
+    taken = behaviour.constants.keys() & arithmetic.functions.keys()
+    if taken:
+        raise ValueError(f"{arithmetic.name} and {behaviour.name} both say what {min(taken)} is")
     forms = PLAIN_FORMS if arithmetic.decided_comparisons else {}
     source, literals = kernel_source(
         features,
-        {**forms, **(overrides or {})},
+        # A behaviour may replace what has a plain form, too.
+        replace(behaviour, functions={**forms, **behaviour.functions}),
         entry_points=COMPILED_ENTRY_POINTS if arithmetic.compiled else ENTRY_POINTS,
         decided_comparisons=arithmetic.decided_comparisons,
         rounded_operations=arithmetic.rounded_operations,
     )
     if arithmetic.compiled:
         number_type = np.dtype(type(arithmetic.number(0.0))).name
-        return compiled_module(compiled_text(source, literals, number_type))
+        numbers = {**literals, **{name: float(value) for name, value in behaviour.constants.items()}}
+        return cast("Kernel", compiled_module(compiled_text(source, numbers, number_type)))
     names: dict[str, Any] = {"float": arithmetic.number}
-    names.update({name: arithmetic.number(value) for name, value in literals.items()})
+    with arithmetic.in_force():
+        names.update({name: arithmetic.number(value) for name, value in literals.items()})
     names.update(MATH)
     exec(compile(source, f"{KERNEL_FILE} in {arithmetic.name}>", "exec"), names)
     names.update(arithmetic.functions)
-    return Namespace(names)
+    names.update(behaviour.constants)
+    return cast("Kernel", Namespace(names))

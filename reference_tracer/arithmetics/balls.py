@@ -15,7 +15,7 @@ from flint import arb, ctx
 from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterator
 
 
 class Decisions:
@@ -42,43 +42,39 @@ class Decisions:
 MARGIN_BITS = 32
 
 
-def ball_arithmetic(
-    precision_bits: int, decisions: Decisions, constants: Mapping[str, Any] | None = None
-) -> Arithmetic:
-    """Balls with midpoints of `precision_bits` bits: what exact arithmetic gives. Sets the precision of this process.
-
-    `constants` are further names that the kernel's source may use.
-    """
-    ctx.prec = precision_bits
+def ball_arithmetic(precision_bits: int, decisions: Decisions) -> Arithmetic:
+    """Balls with midpoints of `precision_bits` bits, where it is in force: what exact arithmetic gives."""
+    with ctx.workprec(precision_bits):
+        functions = _functions(decisions)
     return Arithmetic(
-        f"balls of {precision_bits} bits", arb, _functions(decisions, constants), decided_comparisons=True
+        f"balls of {precision_bits} bits",
+        arb,
+        functions,
+        decided_comparisons=True,
+        in_force=lambda: ctx.workprec(precision_bits),
     )
 
 
-def rounded_ball_arithmetic(
-    precision_bits: int, decisions: Decisions, constants: Mapping[str, Any] | None = None
-) -> Arithmetic:
+def rounded_ball_arithmetic(precision_bits: int, decisions: Decisions) -> Arithmetic:
     """Balls that hold what a renderer may get whose operations err by at most 2^-precision_bits, relatively.
 
-    Each result of an operation is widened by that much. Sets the precision of this process.
+    Each result of an operation is widened by that much.
     """
-    ctx.prec = precision_bits + MARGIN_BITS
     about_one = arb(1, arb(2) ** -precision_bits)
 
     def rounded(result: Any) -> Any:
         return result * about_one if type(result) is arb else result  # whole numbers are exact
 
-    functions = _functions(decisions, constants)
-    functions.update({name: _rounding(functions[name], about_one) for name in ("exp", "pi", "power", "sqrt", "tan")})
-    roundings = {"rounded": rounded, "roundoff_factor": about_one}
-    assert functions.keys().isdisjoint(roundings), "the kernel's constants have names of their own"
-    functions |= roundings
+    with ctx.workprec(precision_bits + MARGIN_BITS):
+        functions = _functions(decisions)
+        functions |= {name: _rounding(functions[name], about_one) for name in ("exp", "pi", "power", "sqrt", "tan")}
     return Arithmetic(
         f"rounded balls of {precision_bits} bits",
         lambda value: stored_number(value, precision_bits),
-        functions,
+        {**functions, "rounded": rounded, "roundoff_factor": about_one},
         decided_comparisons=True,
         rounded_operations=True,
+        in_force=lambda: ctx.workprec(precision_bits + MARGIN_BITS),
     )
 
 
@@ -90,7 +86,7 @@ def stored_number(value: float, precision_bits: int) -> Any:
     return exact * arb(1, arb(2) ** -precision_bits)
 
 
-def _functions(decisions: Decisions, constants: Mapping[str, Any] | None) -> dict[str, Any]:
+def _functions(decisions: Decisions) -> dict[str, Any]:
     return {
         **comparison_functions(decisions),
         "certainly_less": lambda a, b: a < b,
@@ -104,7 +100,6 @@ def _functions(decisions: Decisions, constants: Mapping[str, Any] | None) -> dic
         "power": _power,
         "sqrt": _sqrt,
         "tan": lambda x: x.tan(),
-        **(constants or {}),
     }
 
 

@@ -24,8 +24,11 @@ if TYPE_CHECKING:
 STACK_METHODS = {"append": "push", "pop": "pop"}
 
 
-def compiled_text(source: str, literals: Mapping[str, float], number_type: str) -> str:
-    """The source of a kernel as a file that compiles itself; `number_type` is NumPy's name, as in `float64`."""
+def compiled_text(source: str, numbers: Mapping[str, float], number_type: str) -> str:
+    """The source of a kernel as a file that compiles itself; `number_type` is NumPy's name, as in `float64`.
+
+    `numbers` are its literals and constants by name.
+    """
     lines = [
         f'"""A kernel of the tracer in {number_type}; made from its source, do not edit."""',
         "from math import exp, floor, sqrt, tan",
@@ -34,7 +37,7 @@ def compiled_text(source: str, literals: Mapping[str, float], number_type: str) 
         f"float = {number_type}",
         f"inf = {number_type}('inf')",
         f"pi = {number_type}({math.pi!r})",
-        *(f"{name} = {number_type}({value!r})" for name, value in sorted(literals.items())),
+        *(f"{name} = {number_type}({value!r})" for name, value in sorted(numbers.items())),
         ast.unparse(ast.fix_missing_locations(_CompiledForms().visit(ast.parse(source)))),
     ]
     return "\n".join(lines) + "\n"

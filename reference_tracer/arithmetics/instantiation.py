@@ -2,7 +2,7 @@
 
 The source files are parsed and joined into one module, in which
 - `if MIRRORS:` and the like are decided, so that the kernel holds what the scene requires and nothing else;
-- a function may be overridden by another of the same signature (a variant, or a fault);
+- a behaviour may put other functions in place of some, of the same signatures (behaviour.py);
 - numeric literals are named constants, to be made of the kernel's number type;
 - for balls, comparisons and powers are calls, to be decided by three-valued logic;
 - for balls that follow a renderer's rounding, each result of an operation is rounded.
@@ -20,12 +20,17 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
 from raytruth.reference_tracer.source import features as all_features
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping
+    from collections.abc import Callable, Collection
+
+    from raytruth.reference_tracer.arithmetics.behaviour import Behaviour, Function
 
 SOURCE_FOLDER = Path(all_features.__file__).parent
+SOURCE_FEATURES = frozenset(name for name in vars(all_features) if name.isupper())
+"""What the source knows that a scene may require."""
 
 SOURCE_FILES = (
     "scene_data",
@@ -87,7 +92,7 @@ def exact_functions() -> frozenset[str]:
 
 def kernel_source(
     features: Collection[str],
-    overrides: Mapping[str, Callable[..., object]] | None = None,
+    behaviour: Behaviour = IDEAL,
     *,
     entry_points: tuple[str, ...] = ENTRY_POINTS,
     decided_comparisons: bool = False,
@@ -95,16 +100,26 @@ def kernel_source(
 ) -> tuple[str, dict[str, float]]:
     """The kernel as Python text, and the literals it uses by the names that they have in it.
 
-    An override's source is put in place of the function it overrides, under that function's name; it may use all that
-    the function may. Raises KeyError for an override of a function that does not exist.
+    The source of a behaviour's function is put in place of the function that it stands in for, under that function's
+    name; helpers follow behind. All may use what the functions of the source may.
+    Raises KeyError for a function that does not exist, or a feature that the source does not know; ValueError for a
+    helper or a constant that already exists.
     """
     _, constants = _functions_and_constants(source_module())
     pruned, literals = _pruned_functions(frozenset(features))
     functions, namer = dict(pruned), _LiteralNamer(dict(literals))
-    for name, override in (overrides or {}).items():
-        if name not in functions:
+    helpers = {helper.__name__: helper for helper in behaviour.helpers}
+    for name in (*helpers, *behaviour.constants):
+        if name in pruned or name in constants:
+            raise ValueError(f"the tracer's source and {behaviour.name} both say what {name} is")
+    for name in behaviour.functions:
+        if name not in pruned:
             raise KeyError(f"there is no function {name} in the tracer's source to override")
+    for name, override in behaviour.functions.items():
         functions[name] = _PrunedFunction(namer.visit(_FeaturePruner(features).prune(_override(name, override))))
+    for name, helper in helpers.items():
+        functions[name], its_literals = _pruned_helper(helper, frozenset(features))
+        namer.names.update(its_literals)
     reached = _reachable(functions, entry_points)
     mentioned = frozenset().union(*(function.mentions for function in reached))
     parts = [ast.unparse(constant) for name, constant in constants.items() if name in mentioned]
@@ -138,10 +153,21 @@ class _PrunedFunction:
 @cache
 def _pruned_functions(features: frozenset[str]) -> tuple[dict[str, _PrunedFunction], dict[str, float]]:
     """All functions for these features, and the values of their literals by name."""
+    unknown = features - SOURCE_FEATURES
+    if unknown:  # else what is new in scenes would be left out of every image without a word
+        raise KeyError(f"the tracer's source knows no {', '.join(sorted(unknown))}")
     functions, _ = _functions_and_constants(source_module())
     pruner, namer = _FeaturePruner(features), _LiteralNamer({})
     pruned = {name: _PrunedFunction(namer.visit(pruner.prune(function))) for name, function in functions.items()}
     return pruned, namer.names
+
+
+@cache
+def _pruned_helper(function: Function, features: frozenset[str]) -> tuple[_PrunedFunction, dict[str, float]]:
+    """As above, for a helper: many kernels have the same ones."""
+    namer = _LiteralNamer({})
+    pruned = _FeaturePruner(features).prune(_override(function.__name__, function))
+    return _PrunedFunction(namer.visit(pruned)), namer.names
 
 
 def _bare(function: ast.FunctionDef) -> ast.FunctionDef:
@@ -186,7 +212,7 @@ class _FeaturePruner(ast.NodeTransformer):
     """Replaces feature names by True and False and drops the branches that cannot be taken."""
 
     def __init__(self, features: Collection[str]) -> None:
-        self.values = {name: name in features for name in vars(all_features) if name.isupper()}
+        self.values = {name: name in features for name in SOURCE_FEATURES}
 
     def prune(self, function: ast.FunctionDef) -> ast.FunctionDef:
         pruned: ast.FunctionDef = self.visit(ast.parse(ast.unparse(function)).body[0])

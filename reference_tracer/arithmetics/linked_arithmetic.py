@@ -26,52 +26,46 @@ from raytruth.reference_tracer.arithmetics.linked_balls import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from raytruth.reference_tracer.arithmetics.balls import Decisions
 
 
-def linked_arithmetic(
-    precision_bits: int, decisions: Decisions, constants: Mapping[str, Any] | None = None
-) -> Arithmetic:
+def linked_arithmetic(precision_bits: int, decisions: Decisions) -> Arithmetic:
     """Linked balls for a renderer whose operations err by at most 2^-precision_bits, relatively.
 
-    Constants may be lists, too: each number is then one of its own. Sets the precision of this process.
+    Its function `ball` makes a number of a ball.
     """
-    ctx.prec = precision_bits + MARGIN_BITS
 
     class RoundedLinkedBall(LinkedBall):
         __slots__ = ()
         roundoff = arb(0, arb(2) ** -precision_bits)
         about_one = arb(1, arb(2) ** -precision_bits)
 
-    def constant(value: Any) -> LinkedBall:
+    def ball(value: Any) -> LinkedBall:
         return RoundedLinkedBall(value.mid(), value, (), ZERO if value.is_exact() else value - value.mid())
 
-    def constants_of(value: Any) -> Any:
-        return [constant(single) for single in value] if isinstance(value, list) else constant(value)
-
+    with ctx.workprec(precision_bits + MARGIN_BITS):
+        pi = ball(arb.pi() * RoundedLinkedBall.about_one)
     functions = {
         **_comparisons(decisions),
-        "ball": constant,
+        "ball": ball,
         "certainly_less": lambda a, b: a.range < b.range,
         "certainly_zero": lambda a: a.range == 0,
         "exp": _exp,
         "floor": lambda x: decided_floor(enclosure(x), decisions),
-        "inf": constant(arb(math.inf)),
+        "inf": ball(arb(math.inf)),
         "max": _max,
         "min": _min,
-        "pi": constant(arb.pi() * RoundedLinkedBall.about_one),
+        "pi": pi,
         "power": _power,
         "sqrt": _sqrt,
         "tan": _tan,
-        **{name: constants_of(value) for name, value in (constants or {}).items()},
     }
     return Arithmetic(
         f"linked balls of {precision_bits} bits",
-        lambda value: constant(stored_number(value, precision_bits)),
+        lambda value: ball(stored_number(value, precision_bits)),
         functions,
         decided_comparisons=True,
+        in_force=lambda: ctx.workprec(precision_bits + MARGIN_BITS),
     )
 
 

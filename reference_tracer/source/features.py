@@ -1,7 +1,7 @@
 """What a scene may require; the source says `if MIRRORS:`, and an instantiation keeps only what its scene requires.
 
-The names are those of `raytruth.scenes.requirements.Feature`. Everything is on in the plain source, so that it can be
-read, imported and type-checked as it is.
+The names are those of `raytruth.scenes.features.Feature`. Everything is on in the plain source, so that it can be read,
+imported and type-checked as it is.
 """
 
 PERSPECTIVE: bool = True

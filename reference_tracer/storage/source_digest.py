@@ -1,7 +1,12 @@
-"""What tells whether our own code has changed since a result was kept."""
+"""What tells whether our own code has changed since a result was kept.
+
+What is kept from run to run names the rooms that it depends on: folders of our code, each without the folders in it, or
+single files. A change elsewhere leaves it valid, and so does one of comments, docstrings or line breaks.
+"""
 
 from __future__ import annotations
 
+import ast
 import functools
 import hashlib
 from pathlib import Path
@@ -15,16 +20,32 @@ ROOT = Path(__file__).parents[2]
 
 
 @functools.cache
-def source_digest(*packages: str, without: tuple[str, ...] = ()) -> str:
-    """Of all Python files of these folders of ours, but for those in the folders `without`; all by paths from ROOT."""
-    left_out = [ROOT / folder for folder in without]
-    paths = [path for package in packages for path in sorted((ROOT / package).rglob("*.py"))]
-    return files_digest(path for path in paths if not any(path.is_relative_to(folder) for folder in left_out))
+def source_digest(*rooms: str) -> str:
+    """Of what the code in these rooms says; paths from ROOT, as in `scenes` or `comparisons/renderers/protocol.py`."""
+    return files_digest(path for room in rooms for path in files_of_room(room))
+
+
+def files_of_room(room: str) -> list[Path]:
+    """The Python files right in a folder, or the one file."""
+    place = ROOT / room
+    files = [place] if place.suffix == ".py" else sorted(place.glob("*.py"))
+    assert files, f"{place} holds no code"
+    return files
 
 
 def files_digest(paths: Iterable[Path]) -> str:
-    """Of what these files hold, in this order."""
+    """Of what the code in these files says, in this order."""
     digest = hashlib.sha256()
     for path in paths:
-        digest.update(path.read_bytes())
+        digest.update(_statements(path).encode())
     return digest.hexdigest()
+
+
+@functools.cache
+def _statements(path: Path) -> str:
+    """The syntax tree in words, which knows nothing of comments, without docstrings."""
+    module = ast.parse(path.read_bytes())
+    for node in ast.walk(module):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and ast.get_docstring(node, clean=False):
+            node.body.pop(0)
+    return ast.dump(module)

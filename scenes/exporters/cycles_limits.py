@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.scenes.exporters.mitsuba_limits import triangles_of
-from raytruth.scenes.exporters.povray_materials import relative_index
+from raytruth.scenes.exporters.triangle_soup import triangles_of
+from raytruth.scenes.features import BACKGROUNDS, GEOMETRY, RADIOMETRIC_LIGHTS, Feature, missing_features
 from raytruth.scenes.lights import PointLight
-from raytruth.scenes.materials import CheckerboardColor
-from raytruth.scenes.requirements import Feature, required_features
+from raytruth.scenes.materials import colors_of
+from raytruth.scenes.media import relative_index
+from raytruth.scenes.requirements import required_features
 from raytruth.scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
@@ -19,10 +20,16 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from raytruth.scenes.materials import Material, Texture
+    from raytruth.scenes.materials import Material
     from raytruth.scenes.scene import Scene
     from raytruth.scenes.shapes import Shape, Triangle
 
+EXPRESSES = (
+    GEOMETRY
+    | BACKGROUNDS
+    | RADIOMETRIC_LIGHTS
+    | {Feature.CHECKERBOARD, Feature.EMISSION, Feature.DIFFUSE, Feature.MIRRORS, Feature.DIELECTRICS}
+)
 # Of the socket IOR of Blender's glass.
 LARGEST_INDEX = 1000.0
 # A term is left out whose colour's mean is under 1e-5 (CLOSURE_WEIGHT_CUTOFF in src/kernel/types.h, used by bsdf_alloc
@@ -42,13 +49,15 @@ def refuses(scene: Scene) -> str | None:
     for light in scene.lights:
         if isinstance(light, PointLight) and light.falloff != "inverse_square":
             return "a point light of Cycles falls off with the inverse square of the distance and in no other way"
-    if Feature.ABSORPTION in required_features(scene):  # of a medium that no object needs to be made of, too
+    required = required_features(scene)
+    if Feature.ABSORPTION in required:  # of a medium that no object needs to be made of, too
         return "Cycles scatters and absorbs in volumes at random places, of which no bound is known"
     for name in sorted({shape.material for shape in scene.objects}):
         reason = _refuses_material(scene, scene.materials[name])
         if reason:
             return reason
-    return _refuses_camera(scene) or _refuses_spheres(scene) or _refuses_glass(scene)
+    reason = _refuses_camera(scene) or _refuses_spheres(scene) or _refuses_glass(scene)
+    return reason or missing_features("Cycles", EXPRESSES, required)
 
 
 def _refuses_material(scene: Scene, material: Material) -> str | None:
@@ -82,19 +91,13 @@ def _reflectances(material: Material) -> Iterator[tuple[float, ...]]:
     if material.mirror:
         yield material.mirror.reflectance
     if material.diffuse:
-        yield from _texture_colors(material.diffuse.reflectance)
+        yield from colors_of(material.diffuse.reflectance)
 
 
 def _colors(material: Material) -> Iterator[tuple[float, ...]]:
     yield from _reflectances(material)
     if material.emission:
-        yield from _texture_colors(material.emission.radiance)
-
-
-def _texture_colors(texture: Texture) -> tuple[tuple[float, ...], ...]:
-    if isinstance(texture, CheckerboardColor):
-        return texture.checkerboard.even, texture.checkerboard.odd
-    return (texture,)
+        yield from colors_of(material.emission.radiance)
 
 
 def _refuses_camera(scene: Scene) -> str | None:

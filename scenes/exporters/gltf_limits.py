@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.scenes.exporters.triangle_soup import triangle_lists
+from raytruth.scenes.features import BACKGROUNDS, RADIOMETRIC_LIGHTS, TRIANGLE_GEOMETRY, Feature, missing_features
 from raytruth.scenes.lights import PointLight, shines
-from raytruth.scenes.materials import CheckerboardColor
-from raytruth.scenes.requirements import used_materials
+from raytruth.scenes.requirements import required_features, used_materials
 from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from raytruth.scenes.materials import Material
     from raytruth.scenes.scene import Scene
 
+# Backgrounds are left out, which `notes` tells.
+EXPRESSES = TRIANGLE_GEOMETRY | BACKGROUNDS | RADIOMETRIC_LIGHTS | {Feature.EMISSION, Feature.DIFFUSE, Feature.MIRRORS}
+
 
 def refuses(scene: Scene) -> str | None:
     """Why glTF cannot express this scene, in one clause that follows 'because'; None if it can."""
@@ -28,17 +31,20 @@ def refuses(scene: Scene) -> str | None:
     if any(isinstance(light, PointLight) and light.falloff != "inverse_square" for light in scene.lights):
         return "a point light of glTF falls off with the inverse square of the distance and in no other way"
     reasons = (_refuses_material(scene, material) for material in used_materials(scene))
-    return next((reason for reason in reasons if reason), None)
+    reason = next((reason for reason in reasons if reason), None)
+    required = required_features(scene)
+    if reason is None and Feature.ABSORPTION in required:  # of a medium that no object needs to be made of, too
+        return "a camera of glTF is in empty space, and here it is in a medium that absorbs light"
+    return reason or missing_features("glTF", EXPRESSES, required)
 
 
 def _refuses_material(scene: Scene, material: Material) -> str | None:
-    colors = (material.diffuse and material.diffuse.reflectance, material.emission and material.emission.radiance)
+    if Feature.CHECKERBOARD in material.features():
+        return "glTF has textures as images of 8 bits only, whose colours and edges would not be the checkerboard's"
     mirror = material.mirror.reflectance if material.mirror else ()
-    diffuse = colors[0] if isinstance(colors[0], tuple) else ()
+    color = material.diffuse.reflectance if material.diffuse else ()
+    diffuse = color if isinstance(color, tuple) else ()
     reasons = {
-        "glTF has textures as images of 8 bits only, whose colours and edges would not be the checkerboard's": any(
-            isinstance(color, CheckerboardColor) for color in colors
-        ),
         "glTF has no ambient light": material.ambient and any(scene.ambient_light),
         "glTF has neither Phong's nor Blinn's specular term": material.specular,
         "glTF leaves to each viewer how it approximates Fresnel's equations for glass": material.dielectric,

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.scenes.camera import OrthographicCamera
+from raytruth.scenes.exporters.triangle_soup import triangles_of
+from raytruth.scenes.features import BACKGROUNDS, GEOMETRY, RADIOMETRIC_LIGHTS, Feature, missing_features
 from raytruth.scenes.lights import PointLight
-from raytruth.scenes.materials import CheckerboardColor
-from raytruth.scenes.requirements import Feature, required_features
+from raytruth.scenes.materials import CheckerboardColor, colors_of
+from raytruth.scenes.requirements import required_features
 from raytruth.scenes.shapes import Mesh, Sphere, Triangle
 
 if TYPE_CHECKING:
@@ -20,6 +22,12 @@ if TYPE_CHECKING:
 
 # Mitsuba keeps coordinates in float32: what lies closer to a plane than half an ulp of them is on it.
 FLOAT32_ROUNDOFF = 2.0**-24
+EXPRESSES = (
+    GEOMETRY
+    | BACKGROUNDS
+    | RADIOMETRIC_LIGHTS
+    | {Feature.CHECKERBOARD, Feature.EMISSION, Feature.DIFFUSE, Feature.MIRRORS, Feature.DIELECTRICS}
+)
 NO_ABSORPTION = "Mitsuba's direct and path integrators have no absorbing media"
 
 
@@ -28,14 +36,15 @@ def refuses(scene: Scene) -> str | None:
     for light in scene.lights:
         if isinstance(light, PointLight) and light.falloff != "inverse_square":
             return "a point light of Mitsuba falls off with the inverse square of the distance and in no other way"
-    if Feature.ABSORPTION in required_features(scene):  # of a medium that no object needs to be made of, too
+    required = required_features(scene)
+    if Feature.ABSORPTION in required:  # of a medium that no object needs to be made of, too
         return NO_ABSORPTION
     for name in sorted({shape.material for shape in scene.objects}):
         material = scene.materials[name]
         reason = _refuses_material(scene, material) or _refuses_textures(scene, name, material)
         if reason:
             return reason
-    return _refuses_emission(scene)
+    return _refuses_emission(scene) or missing_features("Mitsuba", EXPRESSES, required)
 
 
 def _refuses_material(scene: Scene, material: Material) -> str | None:
@@ -50,7 +59,7 @@ def _refuses_material(scene: Scene, material: Material) -> str | None:
         and (material.diffuse or material.mirror or material.emission),
         "Mitsuba blends a diffuse and a mirror term at random, with weights that add up to 1": material.diffuse
         and material.mirror,
-        "a reflectance of Mitsuba is at most 1": max(_reflectances(material), default=0) > 1,
+        "a reflectance of Mitsuba is at most 1": _largest_reflectance(material) > 1,
         "a dielectric of Mitsuba obeys Fresnel's equations and has no constant weights": material.dielectric
         and material.dielectric.reflectance is not None,
         NO_ABSORPTION: material.dielectric and any(material.dielectric.absorption or ()),
@@ -58,14 +67,9 @@ def _refuses_material(scene: Scene, material: Material) -> str | None:
     return next((reason for reason, holds in reasons.items() if holds), None)
 
 
-def _reflectances(material: Material) -> tuple[float, ...]:
-    mirror = material.mirror.reflectance if material.mirror else ()
-    if material.diffuse is None:
-        return mirror
-    diffuse = material.diffuse.reflectance
-    if isinstance(diffuse, CheckerboardColor):
-        return mirror + diffuse.checkerboard.even + diffuse.checkerboard.odd
-    return mirror + diffuse
+def _largest_reflectance(material: Material) -> float:
+    textures = [term.reflectance for term in (material.mirror, material.diffuse) if term]
+    return max((max(color) for texture in textures for color in colors_of(texture)), default=0.0)
 
 
 def _refuses_textures(scene: Scene, name: str, material: Material) -> str | None:
@@ -108,13 +112,6 @@ def reversed_primitives(scene: Scene) -> NDArray[np.bool_]:
     return np.array(reverse, dtype=bool)
 
 
-def triangles_of(shape: Triangle | Mesh) -> NDArray[np.float64]:
-    """The corners of its triangles in face order, shape (faces, 3, 3)."""
-    if isinstance(shape, Triangle):
-        return np.array([shape.vertices], dtype=np.float64)
-    return np.array(shape.vertices, dtype=np.float64)[np.array(shape.faces, dtype=np.int64)]
-
-
 def _is_emissive(scene: Scene, shape: Sphere | Triangle | Mesh) -> bool:
     return scene.materials[shape.material].emission is not None
 
@@ -132,7 +129,7 @@ def _specular_extent(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.floa
     radii: list[NDArray[np.float64]] = [np.empty(0)]
     for shape in scene.objects:
         material = scene.materials[shape.material]
-        if not (material.mirror or material.dielectric):
+        if "rays" not in material.light_from():
             continue
         if isinstance(shape, Sphere):
             points.append(np.array([shape.center], dtype=np.float64))

@@ -7,11 +7,12 @@ from xml.etree import ElementTree
 
 from raytruth.scenes.exporters.mitsuba_elements import add_numbers, add_text
 from raytruth.scenes.materials import Checkerboard, CheckerboardColor
+from raytruth.scenes.media import index_of_medium
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
-    from raytruth.scenes.materials import Dielectric, Material, Texture
+    from raytruth.scenes.materials import Material, Texture
     from raytruth.scenes.scene import Scene
     from raytruth.scenes.values import Color
 
@@ -24,7 +25,7 @@ def add_bsdf(root: Element, identifier: str, scene: Scene, material: Material) -
         bsdf = ElementTree.SubElement(root, "bsdf", type="dielectric", id=identifier)
         indices = {
             "int_ior": material.dielectric.index_of_refraction,
-            "ext_ior": _index_outside(scene, material.dielectric),
+            "ext_ior": index_of_medium(scene, material.dielectric.outside),
         }
         add_numbers(bsdf, "float", **indices)
         return
@@ -38,14 +39,6 @@ def add_bsdf(root: Element, identifier: str, scene: Scene, material: Material) -
         # Without a bsdf a shape would be grey: what only emits is black.
         bsdf = ElementTree.SubElement(wrapper, "bsdf", type="diffuse")
         add_texture(bsdf, "reflectance", material.diffuse.reflectance if material.diffuse else BLACK)
-
-
-def _index_outside(scene: Scene, dielectric: Dielectric) -> float:
-    if dielectric.outside is None:
-        return 1.0
-    outside = scene.materials[dielectric.outside].dielectric
-    assert outside is not None  # checked when the scene was loaded
-    return outside.index_of_refraction
 
 
 def checkerboard_of(material: Material) -> Checkerboard | None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from raytruth.scenes.exporters.comments import one_line
 from raytruth.scenes.exporters.obj_lines import face_lines, vertex_lines
 from raytruth.scenes.exporters.triangle_soup import triangle_lists
+from raytruth.scenes.features import Feature, missing_features
 from raytruth.scenes.lights import shines
 from raytruth.scenes.materials import CheckerboardColor
 from raytruth.scenes.requirements import used_materials
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 SCENE_FILE = "scene.obj"
 MATERIAL_FILE = "scene.mtl"
 BLACK = (0.0, 0.0, 0.0)
+# Of materials, whatever light the scene has: lights are left out.
+EXPRESSES = frozenset({Feature.AMBIENT, Feature.DIFFUSE, Feature.BLINN, Feature.MIRRORS, Feature.EMISSION})
 
 
 def refuses(scene: Scene) -> str | None:
@@ -38,8 +41,8 @@ def refuses(scene: Scene) -> str | None:
 
 
 def _refuses_material(material: Material) -> str | None:
-    colors = (material.diffuse and material.diffuse.reflectance, material.emission and material.emission.radiance)
-    if any(isinstance(color, CheckerboardColor) for color in colors):
+    features = material.features()
+    if Feature.CHECKERBOARD in features:
         return "MTL has textures as images only, and an image of a checkerboard has no exact edges"
     if material.dielectric:
         return "MTL names a Fresnel function for glass and does not say which"
@@ -47,7 +50,7 @@ def _refuses_material(material: Material) -> str | None:
         return "the highlight of MTL is Blinn's, and here one is Phong's"
     if material.mirror and (not material.specular or material.specular.reflectance != material.mirror.reflectance):
         return "a mirror of MTL also shows highlights of the same colour"
-    return None
+    return missing_features("OBJ", EXPRESSES, features)
 
 
 def notes(scene: Scene) -> list[str]:

@@ -15,6 +15,7 @@ from raytruth.scenes.exporters.pbrt_text import attributes, comment, directive, 
 from raytruth.scenes.exporters.triangle_soup import triangle_lists
 from raytruth.scenes.lights import ConstantBackground, PointLight, shines
 from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.media import relative_index
 from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
     from raytruth.scenes.exporters.pbrt_text import Value
     from raytruth.scenes.lights import Light
-    from raytruth.scenes.materials import Checkerboard, Dielectric, Material
+    from raytruth.scenes.materials import Checkerboard, Material
     from raytruth.scenes.scene import Scene
     from raytruth.scenes.shapes import Shape
 
@@ -103,7 +104,8 @@ def _light(light: Light) -> str:
 
 def _material(scene: Scene, short: str, material: Material) -> Iterator[str]:
     if material.dielectric:
-        index = {"float eta": _relative_index(scene, material.dielectric)}
+        # pbrt's surfaces decide what is on either side, as the scene's do, and not a ray's history.
+        index = {"float eta": relative_index(scene, material.dielectric)}
         yield directive("MakeNamedMaterial", short, {"string type": "dielectric", **index})
         return
     reflectance = material.diffuse.reflectance if material.diffuse else (0.0, 0.0, 0.0)
@@ -113,12 +115,6 @@ def _material(scene: Scene, short: str, material: Material) -> Iterator[str]:
     else:
         color = {"rgb reflectance": reflectance}
     yield directive("MakeNamedMaterial", short, {"string type": "diffuse", **color})
-
-
-def _relative_index(scene: Scene, dielectric: Dielectric) -> float:
-    """Of what is inside to what is outside: pbrt's surfaces decide, too, and not a ray's history."""
-    outside = scene.materials[dielectric.outside].dielectric if dielectric.outside else None
-    return dielectric.index_of_refraction / (outside.index_of_refraction if outside else 1.0)
 
 
 def _checkerboard(short: str, board: Checkerboard) -> str:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from raytruth.scenes.features import GEOMETRY, RADIOMETRIC_LIGHTS, Feature, missing_features
 from raytruth.scenes.light_paths import comparable_depth
 from raytruth.scenes.lights import PointLight
-from raytruth.scenes.materials import CheckerboardColor
-from raytruth.scenes.requirements import Feature, required_features, used_materials
+from raytruth.scenes.materials import CheckerboardColor, colors_of
+from raytruth.scenes.requirements import required_features, used_materials
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,6 +20,11 @@ if TYPE_CHECKING:
 # light from lights at the first maxdepth of them.
 LIGHT_PATHS = "E[DS]{{0,{depth}}}(L|e)"
 
+EXPRESSES = (
+    GEOMETRY
+    | RADIOMETRIC_LIGHTS
+    | {Feature.BACKGROUND, Feature.CHECKERBOARD, Feature.EMISSION, Feature.DIFFUSE, Feature.DIELECTRICS}
+)
 REFUSED_FEATURES = {
     Feature.AMBIENT: "pbrt has no ambient light",
     Feature.PHONG: "pbrt has no Phong highlight",
@@ -40,7 +46,7 @@ def refuses(scene: Scene) -> str | None:
         *(reason for feature, reason in REFUSED_FEATURES.items() if feature in required),
         *(_refuses_material(scene, material) for material in used_materials(scene)),
     )
-    return next((reason for reason in reasons if reason), None)
+    return next((reason for reason in reasons if reason), None) or missing_features("pbrt", EXPRESSES, required)
 
 
 def _refuses_material(scene: Scene, material: Material) -> str | None:
@@ -55,18 +61,10 @@ def _refuses_material(scene: Scene, material: Material) -> str | None:
         "an area light of pbrt has a texture as an image only, and here a checkerboard shines": material.emission
         and isinstance(material.emission.radiance, CheckerboardColor),
         # paramdict.cpp, extractSpectrumArray.
-        "a reflectance of pbrt is at most 1": max(_reflectances(material), default=0.0) > 1,
+        "a reflectance of pbrt is at most 1": material.diffuse
+        and max(map(max, colors_of(material.diffuse.reflectance))) > 1,
     }
     return next((reason for reason, holds in reasons.items() if holds), None)
-
-
-def _reflectances(material: Material) -> tuple[float, ...]:
-    if material.diffuse is None:
-        return ()
-    reflectance = material.diffuse.reflectance
-    if isinstance(reflectance, CheckerboardColor):
-        return reflectance.checkerboard.even + reflectance.checkerboard.odd
-    return reflectance
 
 
 def depth_of(scene: Scene) -> int | str:

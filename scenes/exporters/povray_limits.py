@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.scenes.exporters.povray_materials import polynomial_falloff, relative_index
+from raytruth.scenes.exporters.povray_materials import polynomial_falloff
+from raytruth.scenes.features import BACKGROUNDS, FURTHER_RAYS, GEOMETRY, LIGHTS, LOCAL_TERMS, missing_features
+from raytruth.scenes.media import relative_index
+from raytruth.scenes.requirements import required_features
 from raytruth.scenes.shapes import Mesh, Sphere
 
 if TYPE_CHECKING:
@@ -20,6 +23,7 @@ if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
     from raytruth.scenes.shapes import Shape
 
+EXPRESSES = GEOMETRY | BACKGROUNDS | LIGHTS | LOCAL_TERMS | FURTHER_RAYS
 UNIT = 1024
 """POV-Ray's units in a unit of the scene: a power of two rounds nothing."""
 # POV-Ray meets nothing farther than this (MAX_DISTANCE in source/backend/configbackend.h of version 3.7.0.10).
@@ -36,7 +40,8 @@ def refuses(scene: Scene) -> str | None:
         return f"POV-Ray meets nothing that is farther than {FARTHEST:.4g} units away"
     if len(scene.lights) > 1 and any(polynomial_falloff(light) for light in scene.lights):
         return "lights of POV-Ray lack this polynomial attenuation, and a filter in its place would dim others, too"
-    return _refuses_dielectrics(scene) if scene.max_depth else None
+    reason = _refuses_dielectrics(scene) if scene.max_depth else None
+    return reason or missing_features("POV-Ray", EXPRESSES, required_features(scene))
 
 
 def spans_of(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

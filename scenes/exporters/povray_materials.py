@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from raytruth.scenes.exporters.povray_text import block, color, comment, vector
 from raytruth.scenes.lights import PointLight, PolynomialFalloff
 from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.media import relative_index
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -69,12 +70,6 @@ def interior_of(dielectric: Dielectric) -> str:
         weight = color(dielectric.reflectance)
         lines.append(f"fade_color {weight} fade_distance {SHORT_FADE!r} fade_power 2")
     return block("interior", *lines)
-
-
-def relative_index(scene: Scene, dielectric: Dielectric) -> float:
-    """The index of refraction divided by that of the medium outside."""
-    outside = scene.materials[dielectric.outside].dielectric if dielectric.outside is not None else None
-    return dielectric.index_of_refraction / (1.0 if outside is None else outside.index_of_refraction)
 
 
 def polynomial_falloff(light: object) -> PolynomialFalloff | None:

@@ -6,14 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.scenes.exporters.mitsuba_limits import triangles_of
-from raytruth.scenes.shapes import Mesh, Sphere
+from raytruth.scenes.shapes import Mesh, Sphere, Triangle
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from raytruth.scenes.scene import Scene
-    from raytruth.scenes.shapes import Triangle
     from raytruth.scenes.triangle_lists import TriangleLists
 
 
@@ -31,6 +29,13 @@ def material_of_each_triangle(scene: Scene) -> list[str]:
         if not isinstance(shape, Sphere)
         for _ in range(len(triangles_of(shape)))
     ]
+
+
+def triangles_of(shape: Triangle | Mesh) -> NDArray[np.float64]:
+    """The corners of its triangles in face order, shape (faces, 3, 3)."""
+    if isinstance(shape, Triangle):
+        return np.array([shape.vertices], dtype=np.float64)
+    return np.array(shape.vertices, dtype=np.float64)[np.array(shape.faces, dtype=np.int64)]
 
 
 def triangle_lists(shape: Triangle | Mesh) -> TriangleLists:

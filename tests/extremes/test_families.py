@@ -15,23 +15,13 @@ from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.rendering import first_hits, prepare, primary_rays, render
 from raytruth.scenes.families.catalogue import FAMILIES, family
-from tests.reference_tracer.kernels import kept_precision
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from numpy.typing import NDArray
-
-pytestmark = pytest.mark.usefixtures("keep_precision")
 
 MEMBERS = [(name, parameter) for name, members in FAMILIES.items() for parameter in members.parameters]
 # Seed 0 has exact ties where there are any; seed 1 has the same within rounding.
 SEEDS = (0, 1)
-
-
-@pytest.fixture(scope="module")
-def keep_precision() -> Iterator[None]:
-    yield from kept_precision()
 
 
 @cache

@@ -21,7 +21,7 @@ import pytest
 
 from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic, make_kernel
 from raytruth.reference_tracer.source import scene_data as layout
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.properties.test_traversal import NOTHING, linear_kernel, ray_through, soup
 from tests.reference_tracer.kernels import float_kernel, numpy_kernel, scene_data
 

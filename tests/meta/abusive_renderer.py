@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.error_models.error_model import ErrorModel
@@ -75,7 +75,7 @@ class AbusiveRenderer:
 
     name: str = "abusive"
     install: str = "better not"
-    error_model: ErrorModel = field(default_factory=lambda: ErrorModel("float32", precision_bits=24))
+    error_models: tuple[tuple[str, ErrorModel], ...] = (("*", ErrorModel("float32", precision_bits=24)),)
     integrators: tuple[Integrator, ...] = tuple(Integrator(name, WHITTED, has_depth=True) for name in MISDEEDS)
 
     def version(self) -> str | None:

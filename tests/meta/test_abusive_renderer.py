@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from raytruth.comparisons.matrix import matrix
-from raytruth.comparisons.matrix.cell import CELL_FILE, LOG_FILE, TRUTH_FILE, CellPlace
-from raytruth.comparisons.matrix.matrix import PlannedCell, make_truth, run_cells
+from raytruth.comparisons.matrix.cell import CELL_FILE, LOG_FILE, TRUTH_FILE
+from raytruth.comparisons.matrix.plan import PlannedCell
+from raytruth.comparisons.matrix.run import make_truth, run_cells
 from raytruth.comparisons.records.results import Verdict
+from tests.comparisons.matrix.cell_places import place_of
 from tests.comparisons.processes.test_isolation import assert_ends, children
 from tests.meta.abusive_renderer import LOG_LIMIT, MISDEEDS, AbusiveRenderer
 from tests.reference_tracer.small_scenes import small_scene
@@ -40,16 +41,13 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Aftermath:
     """All misdeeds one after the other on a grey scene, as the matrix runs them, and what they left around."""
     directory = tmp_path_factory.mktemp("results")
     emission = {"white": {"emission": {"radiance": GREY["color"]}}}
-    scene = small_scene(width=6, height=4, materials=emission, background=GREY).model_copy(update={"name": "small"})
-    planned = [
-        PlannedCell(CellPlace("small", "abusive", name, key=name, source="small"), scene.max_depth) for name in MISDEEDS
-    ]
+    scene = small_scene(name="small", width=6, height=4, materials=emission, background=GREY)
+    renderer = AbusiveRenderer()
+    ((_, error_model),) = renderer.error_models
+    planned = [PlannedCell(place_of(scene, renderer, name), scene.max_depth, error_model) for name in MISDEEDS]
     temporary_before, children_before = set(Path(tempfile.gettempdir()).glob("tmp*")), children()
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(matrix, "open_scene", lambda _: scene)
-        patch.setattr(matrix, "all_renderers", lambda: {"abusive": AbusiveRenderer()})
-        assert make_truth("small", directory) == []
-        cells = {cell.integrator: cell for cell in run_cells("small", planned, directory)}
+    make_truth(scene, directory)
+    cells = {cell.integrator: cell for cell in run_cells(planned, directory)}
     temporary = set(Path(tempfile.gettempdir()).glob("tmp*")) - temporary_before
     return Aftermath(directory, cells, temporary, children() - children_before)
 

@@ -13,23 +13,22 @@ import numpy as np
 import pytest
 
 from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.helpers import HELPERS
 from raytruth.comparisons.error_models.output_model import OutputModel
-from raytruth.comparisons.error_models.ray_offsets import offset_constants, offset_overrides
+from raytruth.comparisons.error_models.ray_offsets import offset_behaviour
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from raytruth.comparisons.judgement.exact_test import distances_in_tolerances
 from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
+from raytruth.reference_tracer.arithmetics.behaviour import merged
 from raytruth.reference_tracer.rendering import prepare, render_prepared
-from tests.reference_tracer.kernels import kept_precision
 from tests.reference_tracer.small_scenes import library_scene
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from numpy.typing import NDArray
 
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
 
-pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
+pytestmark = pytest.mark.clause("VER-2")
 
 BITS = {"float32": 24, "float64": 53}
 # Far above rounding in either format, and far enough to be seen in an image.
@@ -47,11 +46,6 @@ POLICIES = {
 SCENES = ("sphere-over-floor", "self-shadowing-ring", "concave-mirror", "tinted-glass")
 
 
-@pytest.fixture(scope="module", autouse=True)
-def keep_precision() -> Iterator[None]:
-    yield from kept_precision()
-
-
 def model_of(policy: RayOffset, numbers: str) -> ErrorModel:
     # One bit for the last place of the mathematical library.
     return ErrorModel("simulated", BITS[numbers] - 1, policy, 2.0**-8, output=OutputModel("float64"))
@@ -61,10 +55,10 @@ def rendered(scene_name: str, policy: RayOffset, numbers: str) -> NDArray[np.flo
     number: Any = np.dtype(numbers).type
     model = model_of(policy, numbers)
     functions = {"exp": np.exp, "floor": math.floor, "inf": number(math.inf), "pi": number(math.pi), "sqrt": np.sqrt}
-    constants = {name: number(float(ball.mid())) for name, ball in offset_constants(model).items()}
-    arithmetic = Arithmetic(numbers, number, {**functions, "tan": np.tan, **constants})
+    arithmetic = Arithmetic(numbers, number, {**functions, "tan": np.tan})
+    behaviour = merged(HELPERS, offset_behaviour(model)).with_numbers(lambda ball: number(float(ball.mid())))
     with np.errstate(all="ignore"):
-        prepared = prepare(library_scene(scene_name), arithmetic, offset_overrides(model))
+        prepared = prepare(library_scene(scene_name), arithmetic, behaviour)
         return np.asarray(render_prepared(prepared), dtype=np.float64)
 
 

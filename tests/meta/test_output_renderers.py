@@ -18,12 +18,9 @@ from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.rendering import render
 from raytruth.scenes.lights import PointLight
-from tests.reference_tracer.kernels import kept_precision
 from tests.reference_tracer.small_scenes import library_scene
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from numpy.typing import NDArray
 
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
@@ -38,11 +35,6 @@ LINEAR_BYTES = OutputModel("uint8", clipped=True)
 WORDS = OutputModel("uint16", clipped=True)
 CLIPPED_HALVES = OutputModel("float16", clipped=True)
 HALVES = OutputModel("float16")
-
-
-@pytest.fixture(scope="module", autouse=True)
-def keep_precision() -> Iterator[None]:
-    yield from kept_precision()
 
 
 @cache

@@ -12,15 +12,17 @@ import pytest
 
 from raytruth.comparisons.faults.catalogue import all_faults
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
-from raytruth.comparisons.judgement.verdict import Evidence
-from raytruth.comparisons.matrix.cell import CellPlace, run_cell
+from raytruth.comparisons.judgement.verdict import Evidence, gather_evidence
+from raytruth.comparisons.matrix.cell import run_cell
 from raytruth.comparisons.matrix.comparability import depth_or_reason
 from raytruth.comparisons.records.renderings import Rays
 from raytruth.comparisons.records.results import Cell, Verdict
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.rendering import primary_rays, render
 from raytruth.scenes.library import open_scene
+from tests.comparisons.matrix.cell_places import place_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -65,7 +67,7 @@ def test_brightness_off_by_one_part_in_ten_thousand_makes_a_cell_fail(tmp_path: 
     rendering = _rendered("single-sphere", DIRECT)
     evidence = _evidence(scene, all_renderers()["mitsuba"].error_model, {})
     brighter = _Prepared("mitsuba", rendering.__class__(rendering.image * np.float32(1 + 1e-4), 0.0))
-    cell = run_cell(_place("single-sphere", DIRECT), brighter, 1, evidence, tmp_path)
+    cell = run_cell(place_of(scene, brighter, DIRECT[1]), 1, evidence, tmp_path)
     assert cell.verdict == Verdict.FAIL
 
 
@@ -76,7 +78,7 @@ class _Prepared:
         self.name = name
         self.rendering = rendering
         self.integrators = all_renderers()[name].integrators
-        self.error_model = all_renderers()[name].error_model
+        self.error_models = all_renderers()[name].error_models
         self.install = ""
 
     def version(self) -> str:
@@ -97,12 +99,13 @@ def _judge(scene_name: str, judge: tuple[str, str], overrides: Mapping[str, Call
     scene = _small(scene_name)
     evidence = _evidence(scene, all_renderers()[judge[0]].error_model, overrides)
     renderer = _Prepared(judge[0], _rendered(scene_name, judge))
-    return run_cell(_place(scene_name, judge), renderer, 1, evidence, folder)
+    return run_cell(place_of(scene, renderer, judge[1]), 1, evidence, folder)
 
 
 def _evidence(scene: Scene, error_model: Any, overrides: Mapping[str, Callable[..., Any]]) -> Evidence:
-    truth = np.array(render(scene, FLOAT, overrides), dtype=np.float64)
-    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible_set(scene, error_model, overrides))
+    behaviour = Behaviour(overrides)
+    truth = np.array(render(scene, FLOAT, behaviour), dtype=np.float64)
+    return gather_evidence(scene, truth, feasible_set(scene, error_model, behaviour))
 
 
 @cache
@@ -124,7 +127,3 @@ def _small(scene_name: str) -> Scene:
     camera = scene.camera
     share = 2 if any(material.dielectric for material in scene.materials.values()) else 3
     return scene.resized(camera.width // share, camera.height // share)
-
-
-def _place(scene_name: str, judge: tuple[str, str]) -> CellPlace:
-    return CellPlace(scene_name, *judge, key="", source=scene_name)

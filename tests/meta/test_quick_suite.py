@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 
@@ -13,21 +12,12 @@ from raytruth.comparisons.faults.variants import all_variants
 from raytruth.comparisons.kills.kill_matrix import kills_on
 from raytruth.comparisons.matrix.quick_suite import quick_scenes
 from raytruth.scenes.library import library_names, open_scene
-from tests.reference_tracer.kernels import kept_precision
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 pytestmark = pytest.mark.clause("VER-12")
 
 PAGE = (Path(__file__).parents[2] / "docs" / "kill-matrix.md").read_text(encoding="utf-8")
 # Triangles with a tree of boxes, several kinds of lights, mirrors: cheap scenes that between them need most functions.
 CHEAP = ("cornell-box", "several-lights-sphere", "blinn-sphere", "coloured-mirrors", "camera-in-tea")
-
-
-@pytest.fixture(scope="module", autouse=True)
-def keep_precision() -> Iterator[None]:
-    yield from kept_precision()
 
 
 def test_the_quick_suite_kills_every_fault_of_the_catalogue() -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.source import scene_data as layout
 from raytruth.reference_tracer.source.camera import camera_frame, primary_ray
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.properties.exact import Exact, dot, exact, gamma, minus, plus, times
 from tests.properties.strategies import (
     SCALES,

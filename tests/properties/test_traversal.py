@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, make_kernel
 from raytruth.reference_tracer.bounding_volume_tree import build_tree
 from raytruth.reference_tracer.source import scene_data as layout
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.properties.exact import exact
 from tests.reference_tracer.kernels import EXACT, exact_kernel, float_kernel, fractions_of, scene_data
 from tests.reproduction import note_case

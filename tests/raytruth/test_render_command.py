@@ -7,6 +7,7 @@ import OpenImageIO
 import pytest
 
 from raytruth import render_command
+from raytruth.api import images
 from raytruth.comparisons.records.image_files import read_image
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.rendering import render
@@ -124,7 +125,7 @@ def test_a_pixel_without_a_value_is_one_sentence(
     def divide(*_: object, **__: object) -> None:
         raise ZeroDivisionError("float division by zero")
 
-    monkeypatch.setattr(render_command.rendering, "render", divide)
+    monkeypatch.setattr(images.rendering, "render", divide)
     path = tmp_path / "image.exr"
     assert "pixel without a value" in refusal(capsys, "render", "single-sphere", "-o", str(path), *SMALL)
     assert list(tmp_path.iterdir()) == []

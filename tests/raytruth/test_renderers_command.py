@@ -5,6 +5,7 @@ import re
 import pytest
 
 from raytruth.comparisons.renderers.closed_form.adapter import ClosedFormRenderer
+from raytruth.comparisons.renderers.mitsuba.adapter import MitsubaRenderer
 from raytruth.scenes.library import library_names
 from tests.raytruth.running import document, refusal, run
 
@@ -23,7 +24,18 @@ def test_json_tells_version_abilities_and_how_to_install(capsys: pytest.CaptureF
     assert told["name"] == "raytruth"
     assert told["available"] is True
     assert told["integrators"] == {"whitted": "ES{0,n}(DL|e)"}
+    assert told["derived_for"] == "any version"
     assert told["install"]
+
+
+@pytest.mark.clause("REN-7")
+def test_a_version_that_the_error_model_was_not_derived_from_is_told_and_not_available(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(MitsubaRenderer, "version", lambda _self: "mitsuba 4.0.0")
+    (told,) = document(capsys, "renderers", "mitsuba")["renderers"]
+    assert (told["version"], told["derived_for"], told["available"]) == ("mitsuba 4.0.0", "mitsuba 3.9.1", False)
+    assert run(capsys, "renderers", "mitsuba")[1].split("\t")[1:3] == ["mitsuba 4.0.0", "mitsuba 3.9.1"]
 
 
 def test_the_error_model_is_told_field_by_field_in_words(capsys: pytest.CaptureFixture[str]) -> None:

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from raytruth import run_command
-from raytruth.comparisons.matrix import matrix, waivers
+from raytruth.comparisons.matrix import run as matrix_run
+from raytruth.comparisons.matrix import waivers
 from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.records.results import RESULTS_FILE, Results
 from raytruth.comparisons.renderers import catalogue
@@ -33,7 +34,7 @@ WIDTH, HEIGHT = 16, 12
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The working directory, with a tiny scene in it; scenes are rendered in this process."""
-    monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
+    monkeypatch.setattr(matrix_run, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
     monkeypatch.chdir(tmp_path)
     scene_file(tmp_path, width=WIDTH, height=HEIGHT)
     return tmp_path
@@ -44,8 +45,7 @@ def pretender(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Pretender:  # no
     """One renderer that is here, and one that is not."""
     renderer = Pretender()
     known = {"pretender": renderer, "ghost": Pretender(name="ghost", installed=None, install="pip install ghost")}
-    for module in (matrix, catalogue):
-        monkeypatch.setattr(module, "all_renderers", lambda: known)
+    monkeypatch.setattr(catalogue, "all_renderers", lambda: known)
     # The waivers that raytruth has itself are of other renderers.
     every = waivers.all_renderers() | known
     monkeypatch.setattr(waivers, "all_renderers", lambda: every)
@@ -166,11 +166,24 @@ def test_a_required_renderer_that_is_missing_gives_1_and_says_how_to_install_it(
 ) -> None:
     status, _, err = run(capsys, "run", "small.json", "--renderer", "pretender", "--require", "ghost")
     assert status == 1
-    assert "ghost is required and not installed: pip install ghost" in err
+    assert "raytruth: ghost is required and not installed: pip install ghost" in err
     assert pretender.calls == 1
     status, _, err = run(capsys, "run", "small.json", "--require", "pretender")
     assert status == 0
     assert "required" not in err
+
+
+@pytest.mark.clause("REN-7")
+def test_a_required_renderer_of_another_version_than_its_error_model_gives_1(
+    pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pretender.derived_for = "pretender 0.*"
+    for arguments, status in [((), 0), (("--require", "pretender"), 1)]:
+        told = run(capsys, "run", "small.json", "--renderer", "pretender", *arguments)
+        assert told[0] == status
+        assert ("pretender is required and not judged in this version: pretender 1 is installed" in told[2]) == status
+    assert pretender.calls == 0
+    assert {cell.verdict for cell in results_in(folder / "results").cells} == {"unavailable"}
 
 
 def test_names_of_renderers_may_be_separated_by_commas(

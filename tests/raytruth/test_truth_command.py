@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from raytruth import truth_command
+from raytruth.api import images
 from raytruth.comparisons.records.image_files import ImageError
 from raytruth.scenes.library import library_names
 from tests.raytruth.running import document, refusal, run
@@ -85,13 +86,13 @@ def test_fresh_uses_nothing_that_was_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     asked = []
-    original = truth_command.certified_image
+    original = images.truth
 
     def recorded(*arguments: Any, fresh: bool, **options: Any) -> Any:
         asked.append(fresh)
         return original(*arguments, fresh=fresh, **options)
 
-    monkeypatch.setattr(truth_command, "certified_image", recorded)
+    monkeypatch.setattr(images, "truth", recorded)
     for more in ((), ("--fresh",)):
         assert run(capsys, "truth", "ambient-sphere", "--out", str(tmp_path), *SMALL, *more)[0] == 0
     assert asked == [False, True]

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from flint import arb, ctx
 
-from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, Arithmetic, make_kernel
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, INTERPRETED_FLOAT32, Arithmetic, make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, ball_arithmetic
 from raytruth.reference_tracer.source.scene_data import NUMBER_OF_TABLES, SceneData
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from raytruth.reference_tracer.arithmetics.arithmetic import Kernel
+    from raytruth.reference_tracer.arithmetics.kernel import Kernel
 
 
 def exact_root(x: Fraction) -> Fraction:
@@ -54,6 +54,8 @@ def exact_kernel() -> Kernel:
 @cache
 def numpy_kernel(number: Callable[[float], Any]) -> Kernel:
     """For NumPy's float64 or float32, interpreted: rounds as compiled code does, and divides by zero without error."""
+    if number is np.float32:
+        return make_kernel(INTERPRETED_FLOAT32, set(Feature))
     functions = {"sqrt": np.sqrt, "floor": np.floor, "exp": np.exp, "inf": number(math.inf), "pi": number(math.pi)}
     return make_kernel(Arithmetic(f"interpreted {number}", number, functions), set(Feature))
 
@@ -61,7 +63,15 @@ def numpy_kernel(number: Callable[[float], Any]) -> Kernel:
 def ball_kernel(precision_bits: int) -> tuple[Kernel, Decisions]:
     """Sets the precision of the process: use it within `kept_precision`."""
     decisions = Decisions()
-    return make_kernel(ball_arithmetic(precision_bits, decisions), set(Feature)), decisions
+    return make_kernel(put_in_force(ball_arithmetic(precision_bits, decisions)), set(Feature)), decisions
+
+
+def put_in_force(arithmetic: Arithmetic) -> Arithmetic:
+    """For all that follows, with no need to indent it: sets the precision of the process, as above."""
+    with arithmetic.in_force():
+        precision = ctx.prec
+    ctx.prec = precision
+    return arithmetic
 
 
 def kept_precision() -> Iterator[None]:

@@ -8,7 +8,8 @@ import pytest
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64
 from raytruth.reference_tracer.source import scene_data as layout
 from raytruth.reference_tracer.tables import build_tables, material_number, triangles_of
-from raytruth.scenes.requirements import Feature, required_features
+from raytruth.scenes.features import Feature
+from raytruth.scenes.requirements import required_features
 from tests.reference_tracer.small_scenes import lamp, small_scene, sphere, square
 
 if TYPE_CHECKING:
@@ -62,6 +63,14 @@ def test_each_light_has_its_falloff() -> None:
     data = tables_of(mixed_scene())
     assert [layout.integer_of(data, layout.LIGHT_FALLOFF, row) for row in range(2)] == [0, 2]
     assert layout.vector_of(data, layout.LIGHT_FALLOFF_COEFFICIENTS, 1) == (1.0, 2.0, 3.0)
+
+
+@pytest.mark.clause("ILL-7")
+def test_each_kind_of_falloff_has_a_number_of_its_own() -> None:
+    # Literally: the tables take the numbers from the tracer, so that to compare the two would compare nothing.
+    falloffs = ["none", "inverse_square", {"constant": 1.0, "linear": 2.0, "quadratic": 3.0}]
+    data = tables_of(small_scene(lights=[lamp((0.0, 0.0, 3.0), falloff=falloff) for falloff in falloffs]))
+    assert [layout.integer_of(data, layout.LIGHT_FALLOFF, row) for row in range(3)] == [0, 1, 2]
 
 
 def test_only_what_the_scene_requires_is_stored() -> None:

@@ -8,6 +8,7 @@ from flint import arb
 
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import ball_arithmetic
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.instantiation import COMPARISONS, kernel_source
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 from raytruth.reference_tracer.ties import (
@@ -19,7 +20,7 @@ from raytruth.reference_tracer.ties import (
     explanation,
     sentence,
 )
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 
 pytestmark = pytest.mark.clause("ARI-3")
 
@@ -33,7 +34,7 @@ REPLACED = {"certainly_less", "certainly_zero"}
 @cache
 def ball_source() -> ast.Module:
     """What runs in balls, with all features."""
-    text, _ = kernel_source(set(Feature), PLAIN_FORMS, decided_comparisons=True)
+    text, _ = kernel_source(set(Feature), Behaviour(PLAIN_FORMS), decided_comparisons=True)
     return ast.parse(text)
 
 

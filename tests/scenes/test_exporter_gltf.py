@@ -173,6 +173,13 @@ def test_diffuse_surfaces_have_no_specular_layer_and_mirrors_nothing_else(tmp_pa
             {"ambient_light": (1.0, 1.0, 1.0), "materials": {"m": {"ambient": {"reflectance": (1.0, 1.0, 1.0)}}}},
             "ambient",
         ),
+        (
+            {
+                "camera": PERSPECTIVE | {"inside": "tea"},
+                "materials": {"m": RED, "tea": {"dielectric": GLASS["dielectric"] | {"absorption": (0.1, 0.2, 0.3)}}},
+            },
+            "absorbs",
+        ),
     ],
 )
 def test_what_gltf_cannot_say_is_refused(changes: dict[str, Any], word: str, tmp_path: Path) -> None:

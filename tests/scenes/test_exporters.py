@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from raytruth.export_command import FORMATS
+from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.lights import PointLight
-from raytruth.scenes.requirements import Feature, required_features, used_materials
+from raytruth.scenes.requirements import required_features, used_materials
 from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR, POINT, SUN, build
 
 if TYPE_CHECKING:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import os
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -9,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from raytruth.scenes import loading
+from raytruth.scenes import loading, wording
 from raytruth.scenes.library import LIBRARY_FOLDER
 from raytruth.scenes.loading import SceneError, load_scene
 from raytruth.scenes.scene import Scene
@@ -35,6 +36,13 @@ def places(value: Any, here: tuple[str | int, ...] = ()) -> list[tuple[str | int
 
 
 PLACES = places(valid_scene())[1:]
+
+
+def value_at(place: tuple[str | int, ...]) -> Any:
+    part: Any = valid_scene()
+    for step in place:
+        part = part[step]
+    return part
 
 
 def test_a_valid_scene_loads_and_is_named_after_its_file(tmp_path: Path) -> None:
@@ -131,6 +139,42 @@ def test_a_repeated_key_is_refused_at_its_place(tmp_path: Path) -> None:
 def test_a_name_in_the_file_is_refused_since_the_file_is_the_name(tmp_path: Path) -> None:
     [problem] = problems(tmp_path, changed(("name",), "red"))
     assert problem == "name: expected no name, since a scene is named after its file; remove it."
+
+
+HALF = "which holds half of one (a lone surrogate); replace it."
+
+
+@pytest.mark.parametrize("place", [place for place in PLACES if isinstance(value_at(place), str)])
+def test_a_lone_surrogate_in_any_text_is_refused_at_its_place_in_one_sentence(
+    tmp_path: Path, place: tuple[str | int, ...]
+) -> None:
+    text = json.dumps(changed(place, "glass \ud800"))
+    where = wording.place(place)
+    found = [problem for problem in problems(tmp_path, text) if problem.startswith(f"{where}: ")]
+    assert found == [f'{where}: expected a text of Unicode characters, found "glass \\ud800", {HALF}']
+
+
+def test_a_lone_surrogate_in_a_key_is_refused_and_told_without_it(tmp_path: Path) -> None:
+    scene = changed(("materials", "\udc80"), {"mirror": {"reflectance": [1, 1, 1]}})
+    scene["camera"]["x\ud800"] = 1
+    found = problems(tmp_path, json.dumps(scene))
+    assert f'materials."\\udc80": expected a text of Unicode characters, found "\\udc80", {HALF}' in found
+    assert f'camera."x\\ud800": expected a text of Unicode characters, found "x\\ud800", {HALF}' in found
+    assert all(problem.isascii() for problem in found)
+
+
+def test_a_pair_of_surrogates_is_a_character(tmp_path: Path) -> None:
+    text = json.dumps(valid_scene()).replace("bubble", "\\ud83e\\udee7")
+    scene = loaded(write_scene(tmp_path, text))
+    assert isinstance(scene, Scene)
+    assert scene.objects[3].material == "\U0001fae7"
+
+
+def test_a_file_name_that_is_no_utf_8_is_refused(tmp_path: Path) -> None:
+    path = write_scene(tmp_path, valid_scene())
+    latin = path.rename(tmp_path / os.fsdecode(b"\xe9.json"))
+    with pytest.raises(SceneError, match=r"expected a file name in UTF-8, since it names the scene; rename it\.$"):
+        load_scene(latin)
 
 
 def test_a_mistake_in_the_json_is_told_with_line_and_column(tmp_path: Path) -> None:

@@ -57,7 +57,7 @@ def test_a_file_outside_the_folder_is_refused(folder: Path, name: str) -> None:
         ("n" * 5000 + ".obj", "expected a readable mesh file"),
         ("circle.obj", "expected a readable mesh file"),
         ("broken.obj", "'broken.obj' line 2: expected a face with at least three vertices, found 1."),
-        ("broken.ply", "'broken.ply' is no valid PLY file"),
+        ("broken.ply", "'broken.ply' is no PLY file"),
     ],
 )
 def test_each_file_that_cannot_be_used_gets_its_sentence(folder: Path, name: str, sentence: str) -> None:

@@ -4,8 +4,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
-from raytruth.scenes.requirements import TRIANGLES_WITHOUT_TREE, Feature, required_features, used_materials
+from raytruth.scenes.requirements import TRIANGLES_WITHOUT_TREE, required_features, used_materials
 from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
 
 if TYPE_CHECKING:

@@ -6,7 +6,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from raytruth.scenes.triangle_lists import LARGEST_FACE_COUNT, MeshFileError, check_coordinate, check_face_count, fan
+from raytruth.scenes.triangle_lists import (
+    LARGEST_FACE_COUNT,
+    MeshFileError,
+    check_coordinate,
+    check_face_count,
+    check_polygon,
+    fan,
+)
 
 pytestmark = pytest.mark.clause("SCN-3")
 
@@ -25,8 +32,23 @@ def test_a_fan_runs_around_the_polygon_once(polygon: list[int]) -> None:
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 1.1e12])
 def test_a_coordinate_that_is_not_finite_or_absurd_is_refused(value: float) -> None:
-    with pytest.raises(MeshFileError, match="line 3: expected a finite coordinate"):
-        check_coordinate(value, "line 3")
+    with pytest.raises(MeshFileError, match="expected a finite coordinate"):
+        check_coordinate(value)
+
+
+@pytest.mark.parametrize(
+    ("corners", "sentence"),
+    [
+        ((), "expected a face with at least three vertices, found 0."),
+        ((0, 1), "expected a face with at least three vertices, found 2."),
+        ((0, 1, 0), "expected a face with each vertex once, found one again; remove the corner or the face."),
+        ((0, 1, 2, 3, 0), "expected a face with each vertex once, found one again; remove the corner or the face."),
+    ],
+)
+def test_a_face_needs_three_different_corners(corners: tuple[int, ...], sentence: str) -> None:
+    with pytest.raises(MeshFileError) as caught:
+        check_polygon(corners)
+    assert str(caught.value) == sentence
 
 
 def test_the_limit_on_faces_is_inclusive() -> None:

@@ -18,10 +18,10 @@ from raytruth.scenes.requirements import required_features
 from tests.second_opinion.truth import MORE_DIGITS, with_own_error
 
 if TYPE_CHECKING:
-    from raytruth.reference_tracer.arithmetics.arithmetic import Kernel
+    from raytruth.reference_tracer.arithmetics.kernel import Kernel
     from raytruth.reference_tracer.certification import Enclosure
     from raytruth.reference_tracer.source.scene_data import SceneData
-    from raytruth.scenes.requirements import Feature
+    from raytruth.scenes.features import Feature
 
 pytestmark = pytest.mark.clause("ARI-10")
 

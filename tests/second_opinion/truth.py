@@ -10,6 +10,7 @@ from mpmath import mp
 
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import ball_arithmetic
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.tables import build_tables
 from raytruth.reference_tracer.ties import RaisingDecisions, UndecidedComparisonError
 from raytruth.scenes.requirements import required_features
@@ -17,7 +18,8 @@ from raytruth.scenes.requirements import required_features
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic, Kernel
+    from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
+    from raytruth.reference_tracer.arithmetics.kernel import Kernel
     from raytruth.scenes.scene import Scene
     from tests.second_opinion.paper import Vector
 
@@ -61,7 +63,7 @@ def _kernel(
     features: frozenset[str], bits: int, overrides: tuple[tuple[str, Callable[..., object]], ...]
 ) -> tuple[Arithmetic, Kernel]:
     arithmetic = ball_arithmetic(bits, RaisingDecisions())
-    return arithmetic, make_kernel(arithmetic, features, dict(overrides))
+    return arithmetic, make_kernel(arithmetic, features, Behaviour(dict(overrides)))
 
 
 def _is_narrow(ball: Any) -> bool:

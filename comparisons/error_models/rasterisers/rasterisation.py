@@ -11,34 +11,29 @@ through the bundle is it open what it shows.
 
 The depth is that of the plane through the corners, which float32 has rounded but nothing snapped, at c. How it is
 interpolated and kept loses a little more (depth_interpolation.py). What is drawn is lit, as rasterised_light.py says.
-The functions here are overrides, as in ray_offsets.py.
+The functions here are source of the tracer, as those of ray_offsets.py.
 """
 
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from flint import arb
 
+from raytruth.comparisons.error_models.helpers import corners_of
 from raytruth.comparisons.error_models.rasterisers.depth_interpolation import depth_errors
 from raytruth.comparisons.error_models.rasterisers.drawn_pieces import movement_in_space, window_error
-from raytruth.comparisons.error_models.rasterisers.rasterised_light import (
-    drawn_normal,
-    light_constants,
-    light_overrides,
-)
+from raytruth.comparisons.error_models.rasterisers.rasterised_light import about_zero, light_behaviour
 from raytruth.comparisons.error_models.rasterisers.view_volume import camera_axes, half_extent, view_volume
+from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, Behaviour, merged
 from raytruth.reference_tracer.source.bounding_volume import certainly_less, certainly_zero, clip
 from raytruth.reference_tracer.source.features import PERSPECTIVE
-from raytruth.reference_tracer.source.scene_data import TRIANGLE_A, TRIANGLE_B, TRIANGLE_C, vector_of
 from raytruth.reference_tracer.source.triangle import triangle_distance
 from raytruth.reference_tracer.source.vector import add, cross, dot, scale, subtract
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from raytruth.comparisons.error_models.error_model import Rasterisation
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
@@ -55,22 +50,13 @@ depth_error: list[Scalar] = []
 """Of each triangle: of the distance, or with perspective of its inverse."""
 
 
-def rasterisation_overrides(rasterisation: Rasterisation | None) -> dict[str, Callable[..., Any]]:
-    """The functions of the tracer's source that a rasteriser's way replaces."""
-    if rasterisation is None:
-        return {}
-    return {
-        "distance_to_triangle": drawn_distance,
-        "box_is_missed": box_is_missed_by_bundle,
-        "triangle_normal": drawn_normal,
-        **light_overrides(),
-    }
+def rasterisation_behaviour(rasterisation: Rasterisation | None, scene: Scene) -> Behaviour:
+    """What a rasteriser does otherwise, nothing for who traces rays; to be merged with HELPERS.
 
-
-def rasterisation_constants(rasterisation: Rasterisation | None, scene: Scene) -> dict[str, Any]:
-    """The constants of the overrides by name, as lists of balls."""
+    The constants are balls and lists of balls.
+    """
     if rasterisation is None:
-        return {}
+        return IDEAL
     volume = view_volume(scene)
     snapping = 2.0 ** -(rasterisation.subpixel_bits + 1)
     errors = depth_errors(scene, volume, snapping)
@@ -86,27 +72,26 @@ def rasterisation_constants(rasterisation: Rasterisation | None, scene: Scene) -
     # Depth in the window, from 0 to 1, is linear in the distance, or with perspective in its inverse; times the cosine
     # between the ray and the forward direction, which is at most 1.
     unit = 1 / volume.near - 1 / volume.far if is_perspective else volume.far - volume.near
-    return {
-        "origin_spread": _about_zero(origin),
-        "direction_spread": _about_zero(direction),
-        "corner_spread": _about_zero(moved),
+    constants = {
+        "origin_spread": about_zero(origin),
+        "direction_spread": about_zero(direction),
+        "corner_spread": about_zero(moved),
         "beyond": [arb(float(factor)) for factor in errors.beyond],
-        "depth_error": _about_zero((errors.bounds + 2.0**-rasterisation.depth_bits) * unit),
-        **light_constants(scene, snapping, window_error(scene) * of_a_pixel, movement),
+        "depth_error": about_zero((errors.bounds + 2.0**-rasterisation.depth_bits) * unit),
     }
-
-
-def _about_zero(radii: Any) -> list[Any]:
-    return [arb(0, float(radius)) for radius in radii]
+    drawing = Behaviour(
+        {"distance_to_triangle": drawn_distance, "box_is_missed": box_is_missed_by_bundle},
+        constants=constants,
+        name="rasterisation",
+    )
+    return merged(drawing, light_behaviour(scene, snapping, window_error(scene) * of_a_pixel, movement))
 
 
 def drawn_distance(scene: SceneData, origin: Vector, direction: Vector, left: int, triangle: int) -> Scalar:
     """The distance to a triangle that the bundle meets, as it comes out of the z-buffer."""
     if triangle == left:
         return inf
-    a = vector_of(scene, TRIANGLE_A, triangle)
-    b = vector_of(scene, TRIANGLE_B, triangle)
-    c = vector_of(scene, TRIANGLE_C, triangle)
+    a, b, c = corners_of(scene, triangle)
     if triangle_distance(add(origin, origin_spread), add(direction, direction_spread), a, b, c) == inf:
         return inf
     moved = add(a, scale(corner_spread, beyond[triangle]))

@@ -5,8 +5,9 @@ ReplaceShaderNormal and ReplaceShaderLight). Here the tracer's own source is eva
 off by its own rounding is widened by as much: the position of the fragment (position_interpolation.py), the normal, the
 cosines, the power function. Widths are of cubes that hold those in view coordinates however the camera is turned.
 
-The functions here are overrides, as in ray_offsets.py. They keep the shadows that the truth has and VTK has not: a
-scene is compared only where there are none (scenes/hidden_lights.py), and were that wrong, VTK would fail.
+The functions here are source of the tracer, as those of ray_offsets.py. They keep the shadows that the truth has and
+VTK has not: a scene is compared only where there are none (scenes/hidden_lights.py), and were that wrong, VTK would
+fail.
 """
 
 from __future__ import annotations
@@ -18,9 +19,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from flint import arb
 
+from raytruth.comparisons.error_models.helpers import corners_of
 from raytruth.comparisons.error_models.rasterisers.drawn_pieces import ROUNDOFF, extent_of
 from raytruth.comparisons.error_models.rasterisers.position_interpolation import position_errors
 from raytruth.comparisons.error_models.rasterisers.view_volume import view_volume
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.source.features import BLINN, DIFFUSE, PERSPECTIVE, PHONG
 from raytruth.reference_tracer.source.illumination import diffuse, specular
 from raytruth.reference_tracer.source.reflection import mirror_direction
@@ -28,9 +31,6 @@ from raytruth.reference_tracer.source.scene_data import (
     CAMERA_POSITION,
     MATERIAL_IS_LIT,
     MATERIAL_SPECULAR,
-    TRIANGLE_A,
-    TRIANGLE_B,
-    TRIANGLE_C,
     TRIANGLE_MATERIAL,
     integer_of,
     rows_of,
@@ -43,8 +43,7 @@ from raytruth.reference_tracer.source.vector import add, along, cross, dot, mult
 from raytruth.scenes.lights import PointLight
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
+    from raytruth.reference_tracer.arithmetics.behaviour import Function
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
     from raytruth.scenes.scene import Scene
@@ -89,18 +88,8 @@ power_spread: Scalar = 0.0
 exponential_spread: Scalar = 0.0
 
 
-def light_overrides() -> dict[str, Callable[..., Any]]:
-    """The functions of the tracer's source that VTK's way to light replaces."""
-    return {
-        "surface_at": drawn_surface,
-        "direct_light": drawn_light,
-        "is_shadowed": shadowed_by_any_triangle,
-        "phong": drawn_highlight,
-    }
-
-
-def light_constants(scene: Scene, snapping: float, in_image: Any, moved: float) -> dict[str, Any]:
-    """The constants of the overrides by name, as balls and lists of balls.
+def light_behaviour(scene: Scene, snapping: float, in_image: Any, moved: float) -> Behaviour:
+    """What VTK's way to light does otherwise; to be merged with HELPERS. The constants are balls and lists of balls.
 
     `in_image` is what the rounding of a corner's place in the window makes of a ray's direction, or of its origin;
     `moved` the movement of a corner in space.
@@ -108,24 +97,33 @@ def light_constants(scene: Scene, snapping: float, in_image: Any, moved: float) 
     errors = position_errors(scene, view_volume(scene), snapping)
     # View coordinates are rounded along other axes than the scene's.
     bounds = math.sqrt(3) * errors.bounds + LIGHT_ROUNDOFFS * ROUNDOFF * _light_extent(scene)
-    return {
-        "window_spread": _about(0, in_image),
-        "space_spread": _about(0, [moved] * 3),
+    constants = {
+        "window_spread": about_zero(in_image),
+        "space_spread": about_zero([moved] * 3),
         "in_window": [arb(float(factor)) for factor in errors.in_window],
         "in_space": [arb(float(factor)) for factor in errors.in_space],
-        "position_spread": _about(0, bounds),
+        "position_spread": about_zero(bounds),
         # Beyond any scalar product of a direction and a normal.
-        "side_spread": _about(0, errors.either_side * 2.0**200),
+        "side_spread": about_zero(errors.either_side * 2.0**200),
         "normal_spread": arb(0, NORMAL_ROUNDOFFS * ROUNDOFF),
         "cosine_spread": arb(0, COSINE_ROUNDOFFS * ROUNDOFF),
         "least_cosine": arb(LEAST_COSINE / 2, LEAST_COSINE / 2),
         "power_spread": arb(0, POWER_ROUNDOFFS * ROUNDOFF),
         "exponential_spread": arb(0, EXPONENTIAL_ROUNDOFFS * ROUNDOFF),
     }
+    functions: dict[str, Function] = {
+        "triangle_normal": drawn_normal,
+        "surface_at": drawn_surface,
+        "direct_light": drawn_light,
+        "is_shadowed": shadowed_by_any_triangle,
+        "phong": drawn_highlight,
+    }
+    return Behaviour(functions, constants=constants, name="the light of a rasteriser")
 
 
-def _about(middle: float, radii: Any) -> list[Any]:
-    return [arb(middle, float(radius)) for radius in radii]
+def about_zero(radii: Any) -> list[Any]:
+    """A ball around 0 of each radius."""
+    return [arb(0, float(radius)) for radius in radii]
 
 
 def _light_extent(scene: Scene) -> float:
@@ -143,9 +141,7 @@ def drawn_surface(
     primitive: int,
 ) -> tuple[Vector, Vector, bool]:
     """Where the fragment is lit, with which normal turned to the viewer, and whether its front is seen."""
-    a = vector_of(scene, TRIANGLE_A, primitive)
-    b = vector_of(scene, TRIANGLE_B, primitive)
-    c = vector_of(scene, TRIANGLE_C, primitive)
+    a, b, c = corners_of(scene, primitive)
     corner = add(a, scale(space_spread, in_space[primitive]))
     start = origin
     toward = direction
@@ -213,9 +209,7 @@ def shadowed_by_any_triangle(
     """As in the truth, by its own test: nothing of this ray is drawn."""
     for triangle in range(rows_of(scene, TRIANGLE_MATERIAL)):
         if triangle != primitive:
-            a = vector_of(scene, TRIANGLE_A, triangle)
-            b = vector_of(scene, TRIANGLE_B, triangle)
-            c = vector_of(scene, TRIANGLE_C, triangle)
+            a, b, c = corners_of(scene, triangle)
             distance = triangle_distance(point, to_light, a, b, c)
             if light_is_near:
                 if distance < 1.0:

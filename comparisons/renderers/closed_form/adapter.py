@@ -21,6 +21,8 @@ from raytruth.comparisons.renderers.closed_form.geometry import (
 )
 from raytruth.comparisons.renderers.closed_form.shading import background_radiance, surface_radiance
 from raytruth.comparisons.renderers.protocol import Integrator
+from raytruth.scenes.features import BACKGROUNDS, GEOMETRY, LIGHTS, LOCAL_TERMS, missing_features
+from raytruth.scenes.requirements import required_features
 from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
     from raytruth.scenes.shapes import Shape
 
+EXPRESSES = GEOMETRY | BACKGROUNDS | LIGHTS | LOCAL_TERMS
 # No value depends on more than 2^8 rounded operations one after the other (about 100 with one light, and 8 for each
 # further one), so that to first order another sequence of float64 operations differs by 2^8 roundoffs at most.
 REORDERING_BITS = 8
@@ -46,6 +49,7 @@ class ClosedFormRenderer:
         f"float64 with {REORDERING_BITS} bits for another order of operations",
         precision_bits=FLOAT64_BITS - REORDERING_BITS,
     )
+    error_models = (("*", error_model),)  # our own formulas, in operations that every NumPy rounds alike
     install = "part of raytruth"
 
     def version(self) -> str:
@@ -59,10 +63,9 @@ class ClosedFormRenderer:
         count = sum(_primitive_count(shape) for shape in scene.objects)
         if count != 1:
             return f"it has {count} primitives, and closed_form has formulas for exactly one"
-        material = _material(scene)
-        if material.mirror is not None or material.dielectric is not None:
+        if "rays" in _material(scene).light_from():
             return "its surface reflects or refracts, and closed_form has local terms only"
-        return None
+        return missing_features("closed_form", EXPRESSES, required_features(scene))
 
     def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature
         """Never."""

@@ -83,6 +83,7 @@ class Cycles:
         image_radius=IMAGE_RADIUS,
         random_choices="at dielectrics, to reflect or to refract",
     )
+    error_models = (("bpy 5.0.*", error_model),)  # those after 5.0.0 only mend faults
     install = (
         "pip install --no-deps bpy==5.0.1 (Python 3.11 only); apt-get install libgl1 libsm6 libxfixes3 libxi6 "
         "libxkbcommon0 libxrender1"

@@ -20,10 +20,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.comparisons.renderers.cycles.job import Ball, Camera, Closure, Job, Lamp, Mesh, Part, Texture
-from raytruth.scenes.exporters.povray_materials import relative_index
 from raytruth.scenes.exporters.triangle_soup import triangle_lists
 from raytruth.scenes.lights import ConstantBackground, PointLight, shines
 from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.media import relative_index
 from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:

@@ -24,7 +24,9 @@ from raytruth.comparisons.renderers.embree.job import JOB_FILE, RESULT_FILE, TAS
 from raytruth.comparisons.renderers.embree.job import Light as ShadowRays
 from raytruth.comparisons.renderers.protocol import Integrator, Renderer
 from raytruth.scenes.exporters.triangle_soup import material_of_each_triangle, triangles_of_scene
+from raytruth.scenes.features import BACKGROUNDS, FURTHER_RAYS, LIGHTS, LOCAL_TERMS, TRIANGLE_GEOMETRY, missing_features
 from raytruth.scenes.lights import Light, PointLight
+from raytruth.scenes.requirements import required_features
 from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
@@ -33,6 +35,8 @@ if TYPE_CHECKING:
     from raytruth.scenes.materials import Material
     from raytruth.scenes.scene import Scene
 
+# It sends no further rays: where a scene needs them, its light paths tell.
+EXPRESSES = TRIANGLE_GEOMETRY | BACKGROUNDS | LIGHTS | LOCAL_TERMS | FURTHER_RAYS
 # Our own choice, as that of all who use Embree: 2^11 roundoffs of the largest coordinate, so that no rounding of a hit
 # brings a shadow ray back to the surface that it leaves, and yet little beside what a scene shows.
 RAY_OFFSET = 2.0**-13
@@ -88,6 +92,8 @@ class EmbreeRenderer:
     ) -> None:
         self.name = name
         self.error_model = error_model
+        # embreex has the version of the Embree in it; those after 4.4.0 only mend faults.
+        self.error_models = (("embreex 4.4.*", error_model),)
         self.integrators = integrators
         self.robust = robust
 
@@ -101,7 +107,7 @@ class EmbreeRenderer:
             return "Embree as embreex offers it has triangles and no spheres"
         if scene.camera.inside is not None:
             return "its camera is inside a dielectric, and Embree knows no media"
-        return None
+        return missing_features("Embree", EXPRESSES, required_features(scene))
 
     def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature
         """Never."""

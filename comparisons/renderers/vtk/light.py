@@ -16,18 +16,25 @@ from raytruth.comparisons.error_models.rasterisers.drawn_pieces import ROUNDOFF
 from raytruth.comparisons.error_models.rasterisers.rasterised_light import LEAST_COSINE
 from raytruth.comparisons.renderers.vtk.job import Lamp, Surface, Vector
 from raytruth.scenes.exporters.triangle_soup import material_of_each_triangle, triangles_of_scene
+from raytruth.scenes.features import FURTHER_RAYS, LIGHTS, TRIANGLE_GEOMETRY, Feature, missing_features
 from raytruth.scenes.hidden_lights import may_be_hidden
 from raytruth.scenes.lights import GradientBackground, PointLight, PolynomialFalloff
-from raytruth.scenes.materials import CheckerboardColor
-from raytruth.scenes.requirements import used_materials
+from raytruth.scenes.requirements import required_features, used_materials
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from raytruth.scenes.lights import Light
-    from raytruth.scenes.materials import Material, Texture
+    from raytruth.scenes.materials import Material
     from raytruth.scenes.scene import Scene
 
+# It sends no further rays: where a scene needs them, its light paths tell.
+EXPRESSES = (
+    TRIANGLE_GEOMETRY
+    | LIGHTS
+    | FURTHER_RAYS
+    | {Feature.BACKGROUND, Feature.EMISSION, Feature.AMBIENT, Feature.DIFFUSE, Feature.PHONG}
+)
 BLACK: Vector = (0.0, 0.0, 0.0)
 # VTK's shader has each in a piece of its own; with 100 it was not compiled in a minute.
 MOST_LIGHTS = 32
@@ -54,15 +61,13 @@ def refused_light(scene: Scene) -> str | None:
         if refusal is not None:
             return refusal
     hidden = may_be_hidden(scene)
-    return None if hidden is None else f"VTK throws no shadows, and {hidden}"
+    if hidden is not None:
+        return f"VTK throws no shadows, and {hidden}"
+    return missing_features("VTK", EXPRESSES, required_features(scene))
 
 
 def _refused_material(material: Material, scene: Scene) -> str | None:
-    textures: list[Texture | None] = [
-        material.diffuse.reflectance if material.diffuse else None,
-        material.emission.radiance if material.emission else None,
-    ]
-    if any(isinstance(texture, CheckerboardColor) for texture in textures):
+    if Feature.CHECKERBOARD in material.features():
         return "it has a checkerboard, and VTK's textures are pictures"
     if material.specular is None or not scene.lights:
         return None
@@ -95,7 +100,7 @@ def _refused_place(light: Light, number: int, scene: Scene) -> str | None:
 def _least_distance(scene: Scene, light: PointLight) -> float:
     """A lower bound on that of a lit triangle: from its box, or from its plane if that is farther."""
     names = material_of_each_triangle(scene)
-    lit = [bool(scene.materials[name].diffuse or scene.materials[name].specular) for name in names]
+    lit = ["lights" in scene.materials[name].light_from() for name in names]
     triangles = triangles_of_scene(scene)[lit]
     to_corners = triangles - np.array(light.position)
     to_box = np.maximum(np.maximum(to_corners.min(axis=1), -to_corners.max(axis=1)), 0.0)

@@ -10,16 +10,21 @@ import numpy as np
 import pytest
 from flint import arb
 
-from raytruth.comparisons.error_models.bounded_offsets import departure_within_bound, is_shadowed_from_within_bound
+from raytruth.comparisons.error_models.bounded_offsets import (
+    bounded_offset_behaviour,
+    departure_within_bound,
+    is_shadowed_from_within_bound,
+)
 from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
-from raytruth.comparisons.error_models.ray_offsets import offset_constants, offset_overrides
-from raytruth.comparisons.error_models.triangle_tests import triangle_test_constants
+from raytruth.comparisons.error_models.helpers import HELPERS
+from raytruth.comparisons.error_models.ray_offsets import offset_behaviour
 from raytruth.comparisons.renderers.cycles.adapter import Cycles
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic
+from raytruth.reference_tracer.arithmetics.behaviour import merged
 from raytruth.reference_tracer.source.scene_data import TRIANGLE_A, TRIANGLE_B, TRIANGLE_C, TRIANGLE_MATERIAL
-from raytruth.scenes.requirements import Feature
-from tests.reference_tracer.kernels import kept_precision, scene_data
+from raytruth.scenes.features import Feature
+from tests.reference_tracer.kernels import kept_precision, put_in_force, scene_data
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -35,9 +40,9 @@ def keep_precision() -> Iterator[None]:
 
 
 def kernel_of(model: ErrorModel, decisions: Decisions) -> Any:
-    constants = {**offset_constants(model), **triangle_test_constants()}
-    arithmetic = rounded_ball_arithmetic(model.precision_bits, decisions, constants)
-    return make_kernel(arithmetic, set(Feature) - {Feature.BOUNDING_VOLUMES}, offset_overrides(model))
+    behaviour = merged(HELPERS, offset_behaviour(model), bounded_offset_behaviour(model))
+    arithmetic = put_in_force(rounded_ball_arithmetic(model.precision_bits, decisions))
+    return make_kernel(arithmetic, set(Feature) - {Feature.BOUNDING_VOLUMES}, behaviour)
 
 
 def balls(vector: Any) -> Any:
@@ -103,8 +108,10 @@ def test_only_at_an_edge_a_neighbour_may_shadow_or_not(y: float, outcomes: set[b
 def test_a_bound_is_told_in_words_and_overrides_where_rays_start() -> None:
     offset = RayOffset(absolute=0.25, is_bound=True)
     assert offset.in_words() == "up to 0.25 along the normal, to either side; the surface cannot be hit again there"
-    overrides = offset_overrides(ErrorModel("", 24, offset))
-    assert overrides == {"departure": departure_within_bound, "is_shadowed": is_shadowed_from_within_bound}
+    model = ErrorModel("", 24, offset)
+    functions = merged(offset_behaviour(model), bounded_offset_behaviour(model)).functions
+    assert functions == {"departure": departure_within_bound, "is_shadowed": is_shadowed_from_within_bound}
+    assert bounded_offset_behaviour(ErrorModel("", 24, RayOffset(absolute=0.25))).names == ()
 
 
 @pytest.mark.clause("VER-1")

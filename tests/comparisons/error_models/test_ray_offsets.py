@@ -11,9 +11,11 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
-from raytruth.comparisons.error_models.ray_offsets import offset_constants, offset_overrides
+from raytruth.comparisons.error_models.helpers import HELPERS
+from raytruth.comparisons.error_models.ray_offsets import offset_behaviour
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic
+from raytruth.reference_tracer.arithmetics.behaviour import merged
 from raytruth.reference_tracer.source.scene_data import (
     SPHERE_CENTER,
     SPHERE_RADIUS,
@@ -22,8 +24,8 @@ from raytruth.reference_tracer.source.scene_data import (
     TRIANGLE_C,
     TRIANGLE_MATERIAL,
 )
-from raytruth.scenes.requirements import Feature
-from tests.reference_tracer.kernels import kept_precision, scene_data
+from raytruth.scenes.features import Feature
+from tests.reference_tracer.kernels import kept_precision, put_in_force, scene_data
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -49,8 +51,8 @@ LIKE_MITSUBA = RayOffset(OFFSET, OFFSET)
 def kernel_of(offset: RayOffset = LIKE_MITSUBA, bits: int = 53) -> tuple[Any, Decisions]:
     decisions = Decisions()
     model = ErrorModel("", bits, offset, SHORTENING)
-    arithmetic = rounded_ball_arithmetic(bits, decisions, offset_constants(model))
-    return make_kernel(arithmetic, set(Feature), offset_overrides(model)), decisions
+    arithmetic = put_in_force(rounded_ball_arithmetic(bits, decisions))
+    return make_kernel(arithmetic, set(Feature), merged(HELPERS, offset_behaviour(model))), decisions
 
 
 def balls(vector: Any) -> Any:
@@ -66,7 +68,7 @@ def holds(ball: Any, value: Any) -> bool:
 
 def test_only_what_the_offset_changes_is_overridden() -> None:
     def names(offset: RayOffset, shortening: float = 0.0) -> set[str]:
-        return set(offset_overrides(ErrorModel("", 24, offset, shortening)))
+        return set(offset_behaviour(ErrorModel("", 24, offset, shortening)).functions)
 
     tested = {"distance_to_sphere", "distance_to_triangle"}
     assert names(RayOffset()) == set()
@@ -75,7 +77,7 @@ def test_only_what_the_offset_changes_is_overridden() -> None:
     assert names(RayOffset(absolute=OFFSET, excludes_surface=False)) == {"departure", *tested}
     assert names(RayOffset(minimum_distance=OFFSET, excludes_surface=False)) == tested
     model = ErrorModel("", 24, RayOffset(excludes_surface=False), shadow_tolerance=OFFSET)
-    assert set(offset_overrides(model)) == {"is_shadowed", *tested}
+    assert set(offset_behaviour(model).functions) == {"is_shadowed", *tested}
 
 
 def test_shadow_rays_end_before_the_light() -> None:
@@ -232,9 +234,9 @@ def test_within_the_shadow_tolerance_something_throws_a_shadow_or_none(
     decisions = Decisions()
     offset = RayOffset(minimum_distance=LEAST, excludes_surface=False)
     model = ErrorModel("", 53, offset, shadow_tolerance=4 * LEAST)
-    constants = offset_constants(model)
+    arithmetic = put_in_force(rounded_ball_arithmetic(53, decisions))
     features = set(Feature) - {Feature.BOUNDING_VOLUMES}  # one triangle needs no tree
-    kernel = make_kernel(rounded_ball_arithmetic(53, decisions, constants), features, offset_overrides(model))
+    kernel = make_kernel(arithmetic, features, merged(HELPERS, offset_behaviour(model)))
     up = balls((0.0, 0.0, 1.0))
     below = balls((0.0, -0.2, -height))
 

@@ -10,14 +10,15 @@ import pytest
 from flint import arb
 
 from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.helpers import HELPERS
 from raytruth.comparisons.error_models.triangle_points import (
     INTERPOLATION_ROUNDOFFS,
     surface_at_barycentric,
-    triangle_point_constants,
-    triangle_point_overrides,
+    triangle_point_behaviour,
 )
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic
+from raytruth.reference_tracer.arithmetics.behaviour import merged
 from raytruth.reference_tracer.source.ray_tree import surface_at
 from raytruth.reference_tracer.source.scene_data import (
     SPHERE_CENTER,
@@ -28,9 +29,9 @@ from raytruth.reference_tracer.source.scene_data import (
     TRIANGLE_C,
 )
 from raytruth.reference_tracer.source.triangle import triangle_distance
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.comparisons.error_models.test_triangle_tests import random_cases
-from tests.reference_tracer.kernels import kept_precision, scene_data
+from tests.reference_tracer.kernels import kept_precision, put_in_force, scene_data
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -90,8 +91,8 @@ def interpolated(origin: Any, direction: Any, corners: Any) -> Any:
 
 def test_the_enclosure_holds_what_float32_interpolates_and_is_not_much_wider() -> None:
     decisions = Decisions()
-    arithmetic = rounded_ball_arithmetic(BITS, decisions, triangle_point_constants(BARYCENTRIC))
-    kernel = make_kernel(arithmetic, set(Feature), triangle_point_overrides(BARYCENTRIC))
+    arithmetic = put_in_force(rounded_ball_arithmetic(BITS, decisions))
+    kernel = make_kernel(arithmetic, set(Feature), merged(HELPERS, triangle_point_behaviour(BARYCENTRIC)))
     ratios = []
     for case in hits():
         origin, direction, *corners = (np.array(vector, dtype=np.float32) for vector in case)
@@ -108,6 +109,6 @@ def test_the_enclosure_holds_what_float32_interpolates_and_is_not_much_wider() -
 
 
 def test_only_who_interpolates_is_given_it_and_the_words_say_so() -> None:
-    assert triangle_point_overrides(ErrorModel("", 24)) == {}
-    assert triangle_point_overrides(BARYCENTRIC) == {"surface_at": surface_at_barycentric}
+    assert triangle_point_behaviour(ErrorModel("", 24)).names == ()
+    assert triangle_point_behaviour(BARYCENTRIC).functions == {"surface_at": surface_at_barycentric}
     assert BARYCENTRIC.in_words()["points on triangles"] == "barycentric"

@@ -11,18 +11,18 @@ import pytest
 from flint import arb
 
 from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.helpers import HELPERS, edge_slack
 from raytruth.comparisons.error_models.triangle_tests import (
-    edge_slack,
     moeller_trumbore_distance,
     pluecker_distance,
-    triangle_test_constants,
-    triangle_test_overrides,
+    triangle_test_behaviour,
 )
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic
+from raytruth.reference_tracer.arithmetics.behaviour import merged
 from raytruth.reference_tracer.source.triangle import triangle_distance
-from raytruth.scenes.requirements import Feature
-from tests.reference_tracer.kernels import kept_precision
+from raytruth.scenes.features import Feature
+from tests.reference_tracer.kernels import kept_precision, put_in_force
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -90,8 +90,8 @@ def test_a_ray_in_the_plane_and_a_triangle_behind_are_missed(name: str) -> None:
 def test_the_enclosure_holds_the_exact_distance(name: str) -> None:
     decisions = Decisions()
     model = ErrorModel("", 24, triangle_test=name)  # type: ignore[arg-type]  # one of the two names
-    arithmetic = rounded_ball_arithmetic(24, decisions, triangle_test_constants())
-    kernel = make_kernel(arithmetic, set(Feature), triangle_test_overrides(model))
+    arithmetic = put_in_force(rounded_ball_arithmetic(24, decisions))
+    kernel = make_kernel(arithmetic, set(Feature), merged(HELPERS, triangle_test_behaviour(model)))
     compared = 0
     for case in random_cases(400):
         truth = float(triangle_distance(*exactly(case)))
@@ -106,8 +106,8 @@ def test_the_enclosure_holds_the_exact_distance(name: str) -> None:
 
 
 def test_only_a_formula_other_than_the_truths_is_overridden() -> None:
-    assert triangle_test_overrides(ErrorModel("", 24)) == {}
+    assert triangle_test_behaviour(ErrorModel("", 24)).names == ()
     for name, test in TESTS.items():
         model = ErrorModel("", 24, triangle_test=name)  # type: ignore[arg-type]  # one of the two names
-        assert triangle_test_overrides(model) == {"triangle_distance": test}
+        assert triangle_test_behaviour(model).functions == {"triangle_distance": test}
         assert model.in_words()["triangles"] == f"{name} test"

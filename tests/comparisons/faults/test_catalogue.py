@@ -11,9 +11,10 @@ from pathlib import Path
 import pytest
 
 from raytruth.comparisons.faults.catalogue import all_faults
+from raytruth.comparisons.faults.edits import Edit, Function
 from raytruth.comparisons.faults.fault import Fault, Subject, fault, subjects_in
 from raytruth.comparisons.faults.variants import all_variants
-from raytruth.reference_tracer.arithmetics.instantiation import SOURCE_FILES
+from raytruth.reference_tracer.arithmetics.instantiation import SOURCE_FILES, source_module
 
 pytestmark = pytest.mark.clause("PRJ-6")
 
@@ -31,7 +32,16 @@ def arguments_of_the_tracer() -> dict[str, list[str]]:
     return found
 
 
+def text_of(function: Function) -> str:
+    """A function without its decorators, name, docstring and annotations."""
+    (definition,) = ast.parse(inspect.getsource(function)).body
+    assert isinstance(definition, ast.FunctionDef)
+    body = definition.body[1:] if ast.get_docstring(definition) else definition.body
+    return ast.unparse(body)  # type: ignore[arg-type] - it takes lists of statements, too
+
+
 ARGUMENTS = arguments_of_the_tracer()
+RIGHT = {node.name: ast.unparse(node.body) for node in source_module().body if isinstance(node, ast.FunctionDef)}  # type: ignore[arg-type] - as above
 SUBJECTS: dict[str, Subject] = {**all_faults(), **all_variants()}
 
 
@@ -39,6 +49,13 @@ SUBJECTS: dict[str, Subject] = {**all_faults(), **all_variants()}
 def test_what_stands_in_for_a_function_has_its_arguments(name: str) -> None:
     for function, body in SUBJECTS[name].overrides.items():
         assert list(inspect.signature(body).parameters) == ARGUMENTS[function]
+
+
+@pytest.mark.parametrize("name", all_faults())
+def test_a_fault_is_not_the_right_function(name: str) -> None:
+    fault = all_faults()[name]
+    differs = [text_of(body) != RIGHT[function] for function, body in fault.overrides.items()]
+    assert any(differs) or fault.finish or fault.numbers == "float32"
 
 
 def test_there_are_as_many_faults_and_variants_as_were_promised() -> None:
@@ -83,3 +100,22 @@ def test_a_fault_is_its_function_and_what_is_said_about_it() -> None:
     assert (made.name, made.clause, made.words, made.hint) == ("wrong", "CAM-1", "It is wrong.", "Why?")
     assert made.overrides == {"normalize": wrong}
     assert "return a" in made.source()
+
+
+def test_a_fault_by_edits_is_the_edited_function_and_what_is_said_about_it() -> None:
+    def doubled() -> None:
+        """It is doubled."""
+
+    made = fault("CAM-1", "normalize", "Why?", Edit("1.0", "2.0"))(doubled)
+    assert (made.name, made.words) == ("doubled", "It is doubled.")
+    assert text_of(made.overrides["normalize"]) == "return scale(a, 2.0 / sqrt(dot(a, a)))"
+    assert "2.0 / sqrt(dot(a, a))" in made.source()
+
+
+def test_a_fault_that_has_both_a_function_and_edits_is_refused() -> None:
+    def wrong(a: object) -> object:
+        """It is wrong."""
+        return a
+
+    with pytest.raises(ValueError, match="wrong has both a body and edits"):
+        fault("CAM-1", "normalize", "Why?", Edit("1.0", "2.0"))(wrong)

@@ -12,23 +12,16 @@ from raytruth.comparisons.feasible_sets.feasible_set import UNUSED, FeasibleSet,
 from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
 from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_scalar
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.rendering import first_hits, prepare, primary_rays, render
-from tests.reference_tracer.kernels import kept_precision
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene, sphere
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from numpy.typing import NDArray
 
     from raytruth.scenes.scene import Scene
 
-pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
-
-
-@pytest.fixture(scope="module")
-def keep_precision() -> Iterator[None]:
-    yield from kept_precision()
+pytestmark = pytest.mark.clause("VER-2")
 
 
 MODELS = {
@@ -216,7 +209,7 @@ def test_where_radiance_is_bounded_no_box_exceeds_it_however_few_the_bits(name: 
 
 def test_functions_of_the_source_can_be_replaced() -> None:
     scene = scene_of("single-sphere")
-    black = feasible_set(scene, MODELS["float64"], {"local_illumination": no_light})
+    black = feasible_set(scene, MODELS["float64"], Behaviour({"local_illumination": no_light}))
     assert (black.low[black.outcomes > 0][:, 0] <= 0).all()
     assert not is_inside(truth_of("single-sphere"), black).all()
 

@@ -15,7 +15,7 @@ from raytruth.reference_tracer.arithmetics.linked_balls import enclosure
 from raytruth.reference_tracer.rendering import prepare
 from raytruth.reference_tracer.source.scene_data import MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX, number_of
 from raytruth.scenes.library import open_scene
-from tests.reference_tracer.kernels import kept_precision
+from tests.reference_tracer.kernels import kept_precision, put_in_force
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -50,8 +50,9 @@ def test_indices_of_refraction_have_the_bits_that_are_declared(way: Any, ball_of
 def test_a_pixels_ray_stands_for_all_rays_within_the_image_radius(way: Any, ball_of: Any, name: str) -> None:
     scene = open_scene(name)
     column, line, radius = 7, 5, 0.25
-    ray = way(scene, ErrorModel("", 24, image_radius=radius)).primary_ray(column, line)
-    balls = [ball_of(number) for vector in ray for number in vector]
+    rays = way(scene, ErrorModel("", 24, image_radius=radius))
+    put_in_force(rays.prepared.arithmetic)
+    balls = [ball_of(number) for vector in rays.primary_ray(column, line) for number in vector]
     exact = prepare(scene, FLOAT)
     frame = exact.kernel.camera_frame(exact.data)
     inside = [[] for _ in balls]
@@ -75,6 +76,7 @@ def test_a_rasteriser_rounds_no_camera_rays(name: str, way: Any, ball_of: Any) -
     exact = prepared.kernel.primary_ray(prepared.kernel.camera_frame(prepared.data), 20.5, 30.5)
     for rasterisation, widest in ((Rasterisation(8, 24, 22), 2.0**-44), (None, 2.0**-14)):
         rays = way(scene, ErrorModel("", 24, rasterisation=rasterisation))
+        put_in_force(rays.prepared.arithmetic)
         balls = [ball_of(number) for vector in rays.primary_ray(20, 30) for number in vector]
         middles = [float(ball.mid()) for ball in balls]
         assert middles == pytest.approx(list(itertools.chain(*exact)), abs=widest)

@@ -14,20 +14,12 @@ from raytruth.comparisons.kills.kill_matrix import applies, kills_on, rendered
 from raytruth.comparisons.measures.public_gates import GATES
 from raytruth.reference_tracer.source.triangle import triangle_normal
 from raytruth.reference_tracer.source.vector import normalize
-from tests.reference_tracer.kernels import kept_precision
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from raytruth.reference_tracer.source.numbers import Vector
 
 pytestmark = pytest.mark.clause("VER-12")
-
-
-@pytest.fixture(autouse=True)
-def keep_precision() -> Iterator[None]:
-    yield from kept_precision()
 
 
 def endless(a: Vector) -> Vector:

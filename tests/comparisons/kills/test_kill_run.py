@@ -12,6 +12,7 @@ from raytruth.comparisons.kills import kill_run
 from raytruth.comparisons.kills.kill_matrix import KillCell, SceneKills
 from raytruth.comparisons.kills.kill_run import kill_results, run_kills, write_kill_results
 from raytruth.comparisons.records.kill_results import read_kill_results
+from raytruth.scenes.library import open_scene
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -52,10 +53,11 @@ def test_results_are_written_and_read_again(tmp_path: Path) -> None:
 
 def test_a_scene_is_taken_over_until_something_changes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     kills = SceneKills("ambient-sphere", KILLS[1].cells, 3.0)
-    kill_run._keep(tmp_path, "ambient-sphere", kills)
-    assert list(run_kills(["ambient-sphere"], tmp_path, 1, fresh=False)) == [kills]
-    assert kill_run._kept(tmp_path, "single-sphere") is None
+    scene = open_scene("ambient-sphere")
+    kill_run._keep(tmp_path, scene, kills)
+    assert list(run_kills([scene], tmp_path, 1, fresh=False)) == [kills]
+    assert kill_run._kept(tmp_path, open_scene("single-sphere")) is None
     monkeypatch.setattr(kill_run, "source_digest", lambda *_: "other code")
-    assert kill_run._kept(tmp_path, "ambient-sphere") is None
+    assert kill_run._kept(tmp_path, scene) is None
     (tmp_path / "kills" / "ambient-sphere.json").write_text("{", encoding="utf-8")
-    assert kill_run._kept(tmp_path, "ambient-sphere") is None
+    assert kill_run._kept(tmp_path, scene) is None

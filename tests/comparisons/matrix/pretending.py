@@ -39,9 +39,15 @@ class Pretender:
     refusal: str | None = None
     integrators: tuple[Integrator, ...] = (Integrator("whitted", WHITTED, has_depth=True),)
     error_model: ErrorModel = field(default_factory=lambda: ErrorModel("float64", precision_bits=51))
+    derived_for: str = "pretender *"
     install: str = "cannot be installed"
     calls: int = 0
     trials: int = 0
+
+    @property
+    def error_models(self) -> tuple[tuple[str, ErrorModel], ...]:
+        """The one of the versions told."""
+        return ((self.derived_for, self.error_model),)
 
     def version(self) -> str | None:
         """As told."""

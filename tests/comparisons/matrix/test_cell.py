@@ -10,16 +10,17 @@ import pytest
 
 from raytruth.comparisons.feasible_sets.feasible_set import UNUSED, feasible_set
 from raytruth.comparisons.judgement.exact_test import UNJUDGED
-from raytruth.comparisons.judgement.verdict import Evidence
-from raytruth.comparisons.matrix.cell import CELL_FILE, CellPlace, run_cell
+from raytruth.comparisons.judgement.verdict import Evidence, gather_evidence
+from raytruth.comparisons.matrix.cell import CELL_FILE, run_cell
 from raytruth.comparisons.noise.lobes import find_lobes
 from raytruth.comparisons.records.image_files import read_image
 from raytruth.comparisons.records.pixel_evidence import pixel_evidence, read_pixel_evidence
-from raytruth.comparisons.records.renderings import FirstHits, Rays, RendererError, Rendering
+from raytruth.comparisons.records.renderings import FirstHits, RendererError, Rendering
 from raytruth.comparisons.records.results import Cell, Verdict
 from raytruth.comparisons.renderers.protocol import Integrator
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
-from raytruth.reference_tracer.rendering import primary_rays, render
+from raytruth.reference_tracer.rendering import render
+from tests.comparisons.matrix.cell_places import place_of
 from tests.comparisons.matrix.pretending import Pretender, truthful
 from tests.reference_tracer.small_scenes import lamp, small_scene
 
@@ -29,9 +30,12 @@ if TYPE_CHECKING:
 
     from raytruth.scenes.scene import Scene
 
+    Answer = Callable[[Scene, Path], Rendering]
+
 pytestmark = pytest.mark.clause("VER-3", "VER-4", "VER-9", "VER-10", "REN-1")
 
-PLACE = CellPlace("small", "pretender", "whitted", key="abc", source="small", version="pretender 1")
+FOLDER = "cells/small/pretender-whitted"
+FIRST_HITS_ONLY = (Integrator("whitted", "E", gives="first hits"),)
 GLASS = {"white": {"dielectric": {"index_of_refraction": 1.5}}}
 SIZE: dict[str, Any] = {"width": 6, "height": 4, "extent": 3.0}
 # Brighter overhead than anything in the picture, so that right means are not at their bound.
@@ -47,13 +51,15 @@ def evidence(kind: str = "lit") -> Evidence:
     }
     scene = small_scene(**SIZE, **kinds[kind])
     truth = np.asarray(render(scene, FLOAT), dtype=np.float64)
-    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible_set(scene, Pretender().error_model))
+    return gather_evidence(scene, truth, feasible_set(scene, Pretender().error_model))
 
 
-def cell_of(
-    folder: Path, answer: Callable[[Scene, Path], Rendering] = truthful, kind: str = "lit", place: CellPlace = PLACE
-) -> Cell:
-    return run_cell(place, Pretender(answer), 1, evidence(kind), folder)
+def cell_of(folder: Path, answer: Answer = truthful, kind: str = "lit", source: str = "small") -> Cell:
+    return judged(Pretender(answer), evidence(kind), folder, source)
+
+
+def judged(renderer: Pretender, by: Evidence, folder: Path, source: str = "small") -> Cell:
+    return run_cell(place_of(by.scene, renderer, "whitted", source=source), 1, by, folder)
 
 
 def files(folder: Path) -> set[str]:
@@ -63,7 +69,7 @@ def files(folder: Path) -> set[str]:
 def test_a_right_image_passes_and_everything_lies_in_the_cells_folder(tmp_path: Path) -> None:
     cell = cell_of(tmp_path)
     assert cell.verdict == Verdict.PASS
-    assert (cell.seconds, cell.version, cell.key) == (0.5, "pretender 1", "abc")
+    assert (cell.seconds, cell.version, cell.key) == (0.5, "1", "abc")
     assert cell.largest_error is not None
     assert cell.largest_error <= 2.0**-25  # half an ulp of a float32 below 1
     folder = "cells/small/pretender-whitted"
@@ -120,8 +126,8 @@ def test_an_image_with_what_is_no_number_is_an_error_and_can_be_read_back(tmp_pa
     cell = cell_of(tmp_path, lambda *_: Rendering(image, 0.0))
     assert cell.verdict == Verdict.ERROR
     assert cell.reason == "2 pixels of its image are not a number, the first of them (3, 2)"
-    text = (tmp_path / PLACE.folder / CELL_FILE).read_text()
-    assert Cell.model_validate_json(text).model_dump_json() == cell.model_dump_json()
+    read = Cell.model_validate_json((tmp_path / FOLDER / CELL_FILE).read_text())
+    assert read.model_dump_json() == cell.model_dump_json()
 
 
 def test_an_infinite_image_fails(tmp_path: Path) -> None:
@@ -153,7 +159,7 @@ def test_a_value_that_is_barely_outside_is_still_outside_in_the_map(tmp_path: Pa
     feasible = replace(whole.feasible, low=np.full(size, -0.5), high=np.full(size, np.nextafter(0.5, 0)))
     barely = replace(whole, feasible=feasible)
     image = np.full((4, 6, 3), 0.5, dtype=np.float32)
-    cell = run_cell(PLACE, Pretender(lambda *_: Rendering(image, 0.0)), 1, barely, tmp_path)
+    cell = judged(Pretender(lambda *_: Rendering(image, 0.0)), barely, tmp_path)
     assert cell.verdict == Verdict.FAIL
     assert cell.images is not None
     assert (read_image(tmp_path / cell.images.tolerances) > 1).all()
@@ -165,7 +171,7 @@ def test_capped_pixels_are_counted_in_the_reason_and_in_the_kept_evidence(tmp_pa
     for kind, answer in {"lit": truthful, "glass": noisy(0.0, "glass")}.items():
         whole = evidence(kind)
         capped = replace(whole, feasible=replace(whole.feasible, merged=merged))
-        cell = run_cell(PLACE, Pretender(answer), 1, capped, tmp_path)
+        cell = judged(Pretender(answer), capped, tmp_path)
         assert cell.verdict == Verdict.PASS
         assert cell.reason.endswith("(2 in a box of several outcomes)")
         assert cell.judgement is not None
@@ -188,9 +194,6 @@ def test_wrong_first_hits_fail_a_right_image(tmp_path: Path) -> None:
     assert cell.reason.startswith(f"{cell.first_hits.failing} first hits")
 
 
-FIRST_HITS_ONLY = (Integrator("whitted", "E", gives="first hits"),)
-
-
 def right_first_hits() -> FirstHits:
     """The middles of the certain feasible sets."""
     feasible = evidence().feasible
@@ -202,7 +205,7 @@ def right_first_hits() -> FirstHits:
 
 def first_hits_cell(folder: Path, hits: FirstHits | None) -> Cell:
     renderer = Pretender(lambda *_: Rendering(None, 0.5, hits), integrators=FIRST_HITS_ONLY)
-    return run_cell(PLACE, renderer, 0, evidence(), folder)
+    return judged(renderer, evidence(), folder)
 
 
 def test_first_hits_alone_are_judged_without_an_image(tmp_path: Path) -> None:
@@ -225,7 +228,7 @@ def test_first_hits_of_which_none_can_be_judged_do_not_pass(tmp_path: Path) -> N
     whole = evidence()
     nothing = replace(whole.feasible, hit_primitives=np.full_like(whole.feasible.hit_primitives, UNUSED))
     renderer = Pretender(lambda *_: Rendering(None, 0.5, right_first_hits()), integrators=FIRST_HITS_ONLY)
-    cell = run_cell(PLACE, renderer, 0, replace(whole, feasible=nothing), tmp_path)
+    cell = judged(renderer, replace(whole, feasible=nothing), tmp_path)
     assert (cell.verdict, "no first hit could be judged" in cell.reason) == (Verdict.FAIL, True)
 
 
@@ -244,9 +247,9 @@ def test_first_hits_of_another_size_are_an_error(name: str, tmp_path: Path) -> N
 
 def test_the_folder_is_replaced_whole(tmp_path: Path) -> None:
     cell_of(tmp_path)
-    (tmp_path / PLACE.folder / "stale.txt").write_text("old")
+    (tmp_path / FOLDER / "stale.txt").write_text("old")
     cell_of(tmp_path, failing)
-    assert {path.name for path in (tmp_path / PLACE.folder).iterdir()} == {CELL_FILE, "log.txt"}
+    assert {path.name for path in (tmp_path / FOLDER).iterdir()} == {CELL_FILE, "log.txt"}
     assert [path.name for path in (tmp_path / "cells/small").iterdir()] == ["pretender-whitted"]
 
 
@@ -263,10 +266,10 @@ def test_what_nobody_expects_leaves_the_earlier_cell_and_nothing_else(
     with pytest.raises(unexpected):
         cell_of(tmp_path, surprising)
     assert [path.name for path in (tmp_path / "cells/small").iterdir()] == ["pretender-whitted"]
-    assert Cell.model_validate_json((tmp_path / PLACE.folder / CELL_FILE).read_text()) == earlier
+    assert Cell.model_validate_json((tmp_path / FOLDER / CELL_FILE).read_text()) == earlier
 
 
-def noisy(offset: float, kind: str) -> Callable[[Scene, Path], Rendering]:
+def noisy(offset: float, kind: str) -> Answer:
     """Batches of many samples of which the mean is off by a part of the truth."""
 
     def answer(_scene: Scene, _folder: Path) -> Rendering:
@@ -311,8 +314,8 @@ def test_a_noisy_image_of_which_nothing_can_be_judged_fails(tmp_path: Path) -> N
     whole = evidence("glass")
     nowhere = np.full_like(whole.feasible.low, np.nan)
     blind = replace(whole.feasible, low=nowhere, high=nowhere)
-    unjudged = Evidence(whole.scene, whole.truth, whole.rays, blind)
-    cell = run_cell(PLACE, Pretender(noisy(0.0, "glass")), 1, unjudged, tmp_path)
+    unjudged = replace(whole, feasible=blind)
+    cell = judged(Pretender(noisy(0.0, "glass")), unjudged, tmp_path)
     assert cell.verdict == Verdict.FAIL
     assert "no pixel could be judged" in cell.reason
 
@@ -332,7 +335,7 @@ def test_an_unjudged_pixel_of_a_noisy_image_is_held_to_the_brightest_there_can_b
         rendering.batch_means[:, 0, 0] *= np.float32(factor)
         return rendering
 
-    cell = run_cell(PLACE, Pretender(answer), 1, unjudged, tmp_path)
+    cell = judged(Pretender(answer), unjudged, tmp_path)
     assert cell.judgement is not None
     assert cell.images is not None
     assert (cell.judgement.unjudged, cell.judgement.failing) == (1, failing_pixels)
@@ -344,5 +347,5 @@ def test_an_unjudged_pixel_of_a_noisy_image_is_held_to_the_brightest_there_can_b
 
 @pytest.mark.parametrize("source", ["small", "my scenes/it's; rm -rf $HOME.json", "a\nb.json"])
 def test_the_command_repeats_the_cell_whatever_the_path(source: str, tmp_path: Path) -> None:
-    cell = cell_of(tmp_path, place=CellPlace("small", "pretender", "whitted", "", source))
+    cell = cell_of(tmp_path, source=source)
     assert shlex.split(cell.command) == ["raytruth", "run", source, "--renderer", "pretender", "--fresh"]

@@ -14,6 +14,7 @@ from raytruth.comparisons.judgement.exact_test import judge_image
 from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.renderers import povray as adapter
 from raytruth.comparisons.renderers.povray import PovRay
+from raytruth.comparisons.renderers.protocol import why_unavailable
 from raytruth.reference_tracer.rendering import render as render_reference
 from raytruth.scenes.exporters.povray import export_povray
 from raytruth.scenes.library import open_scene
@@ -158,13 +159,28 @@ def test_a_program_that_fails_gives_a_renderer_error(
         rendered(build(lights=[point_light(np.array([1.0, 2.0, 3.0]), 2.0)]), tmp_path)
 
 
-@pytest.mark.parametrize("told", ["exit 1", "echo POV-Ray 3.6.1", "echo POV-Ray 3.8.0-beta"])
+@pytest.mark.parametrize("told", ["exit 1", "echo Povray the game, POV-Ray 3.7.0.10", "echo POV-Ray of my own"])
 def test_another_program_of_that_name_counts_as_none(
     told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pretend(monkeypatch, tmp_path / "bin", told)
     adapter._version.cache_clear()
     assert PovRay().version() is None
+    monkeypatch.undo()
+    adapter._version.cache_clear()
+
+
+@pytest.mark.clause("REN-7")
+@pytest.mark.parametrize(
+    ("version", "is_judged"), [("3.7.0.8", True), ("3.6.1", False), ("3.7.1-beta", False), ("3.8.0-beta.2", False)]
+)
+def test_another_version_is_told_and_not_judged(
+    version: str, is_judged: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pretend(monkeypatch, tmp_path / "bin", f"echo POV-Ray {version}")
+    adapter._version.cache_clear()
+    assert PovRay().version() == f"POV-Ray {version}"
+    assert (why_unavailable(PovRay(), PovRay().version()) is None) == is_judged
     monkeypatch.undo()
     adapter._version.cache_clear()
 

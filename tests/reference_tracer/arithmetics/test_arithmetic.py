@@ -10,9 +10,10 @@ from flint import arb
 
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64, make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, ball_arithmetic, every_outcome
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.rendering import first_hits, prepare, render
 from raytruth.reference_tracer.tables import build_tables
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.reference_tracer.kernels import (
     EXACT,
     ball_kernel,
@@ -22,6 +23,7 @@ from tests.reference_tracer.kernels import (
     fractions_of,
     holds,
     kept_precision,
+    put_in_force,
 )
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene
 
@@ -107,7 +109,7 @@ def test_floats_fractions_and_balls_agree_on_a_whole_pixel() -> None:
     rounded = render(scene, FLOAT)[0, 0]
     for bits in (200, 48):
         decisions = Decisions()
-        balls = render(scene, ball_arithmetic(bits, decisions))[0, 0]
+        balls = render(scene, put_in_force(ball_arithmetic(bits, decisions)))[0, 0]
         assert decisions.answers == []
         for ball, value, number in zip(balls, exact, rounded, strict=True):
             assert holds(ball, value)
@@ -129,7 +131,7 @@ def test_some_outcome_in_balls_holds_the_floats_of_a_pixel(name: str) -> None:
     scene = library_scene(name, 8, 6)
     image = render(scene, FLOAT64)
     decisions = Decisions()
-    prepared = prepare(scene, ball_arithmetic(48, decisions))  # as above
+    prepared = prepare(scene, put_in_force(ball_arithmetic(48, decisions)))  # as above
     frame = prepared.kernel.camera_frame(prepared.data)
     for line, column in np.ndindex(image.shape[:2]):
         x, y = arb(column + 0.5), arb(line + 0.5)
@@ -156,7 +158,7 @@ def test_another_override_of_the_same_function_is_another_compiled_kernel(
     monkeypatch.setenv("RAYTRUTH_CACHE", str(tmp_path))
     scene = small_scene(lights=[lamp((0.0, 0.0, 3.0))])
     for override, value in ((half_diffuse, 0.5), (quarter_diffuse, 0.25), (half_diffuse, 0.5)):
-        assert render(scene, FLOAT64, {"diffuse": override})[0, 0, 0] == value
+        assert render(scene, FLOAT64, Behaviour({"diffuse": override}))[0, 0, 0] == value
     assert len(list((tmp_path / "kernels").glob("kernel_*.py"))) == 2
 
 

@@ -19,8 +19,8 @@ from raytruth.reference_tracer.arithmetics.balls import (
     rounded_ball_arithmetic,
     stored_number,
 )
-from raytruth.scenes.requirements import Feature
-from tests.reference_tracer.kernels import kept_precision, numpy_kernel
+from raytruth.scenes.features import Feature
+from tests.reference_tracer.kernels import kept_precision, numpy_kernel, put_in_force
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -36,7 +36,7 @@ def keep_precision() -> Iterator[None]:
 
 
 def functions(bits: int, decisions: Decisions | None = None) -> Any:
-    return ball_arithmetic(bits, decisions or Decisions()).functions
+    return put_in_force(ball_arithmetic(bits, decisions or Decisions())).functions
 
 
 def between(low: float, high: float) -> Any:
@@ -210,8 +210,8 @@ VECTORS = st.tuples(COORDINATES, COORDINATES, COORDINATES)
 
 
 @pytest.fixture
-def rounded(keep_precision: None) -> Any:  # noqa: ARG001 - the kernel sets the precision, which is to be put back
-    return make_kernel(rounded_ball_arithmetic(24, Decisions()), set(Feature))
+def rounded(keep_precision: None) -> Any:  # noqa: ARG001 - it sets the precision, which is to be put back
+    return make_kernel(put_in_force(rounded_ball_arithmetic(24, Decisions())), set(Feature))
 
 
 @pytest.mark.clause("ARI-4")
@@ -242,7 +242,7 @@ def test_rounded_balls_hold_what_float32_makes_of_the_tracers_own_functions(
 @pytest.mark.clause("ARI-4")
 @pytest.mark.parametrize("bits", [11, 24, 53])
 def test_each_operation_widens_a_rounded_ball_by_one_roundoff(bits: int) -> None:
-    kernel = make_kernel(rounded_ball_arithmetic(bits, Decisions()), set(Feature))
+    kernel = make_kernel(put_in_force(rounded_ball_arithmetic(bits, Decisions())), set(Feature))
     once = kernel.scale((arb(3), arb(5), arb(7)), arb(11))
     for ball, exact in zip(once, (33, 55, 77), strict=True):
         assert ball.contains(arb(exact))

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, make_kernel
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.instantiation import (
     COMPILED_ENTRY_POINTS,
     exact_functions,
@@ -16,8 +17,9 @@ from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 from raytruth.reference_tracer.rendering import prepare, render
 from raytruth.reference_tracer.source import scene_data as layout
 from raytruth.reference_tracer.tables import build_tables
+from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
-from raytruth.scenes.requirements import Feature, required_features
+from raytruth.scenes.requirements import required_features
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene
 
 if TYPE_CHECKING:
@@ -133,7 +135,7 @@ def brighter(scene, light, distance_squared):  # type: ignore[no-untyped-def]  #
 def test_an_override_takes_effect_and_may_use_what_the_source_has() -> None:
     scene = small_scene(lights=[lamp((0.0, 0.0, 3.0))])
     assert render(scene, FLOAT)[0, 0, 0] == 1.0
-    assert render(scene, FLOAT, {"attenuation": brighter})[0, 0, 0] == 2.0
+    assert render(scene, FLOAT, Behaviour({"attenuation": brighter}))[0, 0, 0] == 2.0
     assert render(scene, FLOAT)[0, 0, 0] == 1.0
 
 
@@ -141,13 +143,13 @@ def test_an_override_takes_effect_and_may_use_what_the_source_has() -> None:
 def test_what_only_the_overridden_function_needed_is_left_out() -> None:
     features = required_features(open_scene("single-sphere"))
     assert "is_occluded" in kernel_source(features)[0]
-    assert "is_occluded" not in kernel_source(features, {"is_shadowed": no_shadows})[0]
+    assert "is_occluded" not in kernel_source(features, Behaviour({"is_shadowed": no_shadows}))[0]
 
 
 @pytest.mark.clause("ARI-2")
 def test_an_unknown_function_cannot_be_overridden() -> None:
     with pytest.raises(KeyError, match="no function is_shadowy "):
-        prepare(small_scene(), FLOAT, {"is_shadowy": no_shadows})
+        prepare(small_scene(), FLOAT, Behaviour({"is_shadowy": no_shadows}))
 
 
 @pytest.mark.clause("ARI-1")
@@ -189,8 +191,8 @@ class Unrounded(ast.NodeTransformer):
 
 @pytest.mark.clause("ARI-3")
 def test_each_operation_is_rounded_once_and_nothing_else_is_changed() -> None:
-    exact, _ = kernel_source(set(Feature), PLAIN_FORMS, decided_comparisons=True)
-    rounded, _ = kernel_source(set(Feature), PLAIN_FORMS, decided_comparisons=True, rounded_operations=True)
+    exact, _ = kernel_source(set(Feature), Behaviour(PLAIN_FORMS), decided_comparisons=True)
+    rounded, _ = kernel_source(set(Feature), Behaviour(PLAIN_FORMS), decided_comparisons=True, rounded_operations=True)
     unrounded = Unrounded()
     assert ast.unparse(unrounded.visit(ast.parse(rounded))) == ast.unparse(ast.parse(exact))
     functions = [f for f in ast.parse(exact).body if isinstance(f, ast.FunctionDef) and f.name not in exact_functions()]
@@ -218,7 +220,7 @@ def each_kind(origin: Any, direction: Any, distance: Any) -> Any:
 
 @pytest.mark.clause("ARI-3")
 def test_how_an_operation_is_rounded() -> None:
-    text, _ = kernel_source(set(Feature), {"along": each_kind}, rounded_operations=True)
+    text, _ = kernel_source(set(Feature), Behaviour({"along": each_kind}), rounded_operations=True)
     for line in (
         "sum_of_names = rounded(distance + origin)",
         "negative = -distance / origin * roundoff_factor",

@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.linked_arithmetic import linked_arithmetic
 from raytruth.reference_tracer.arithmetics.linked_balls import LinkedBall, condensed, enclosure
-from tests.reference_tracer.kernels import kept_precision
+from tests.reference_tracer.kernels import kept_precision, put_in_force
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,7 +30,7 @@ def keep_precision() -> Iterator[None]:
 
 
 def arithmetic(decisions: Decisions | None = None) -> Any:
-    return linked_arithmetic(BITS, decisions or Decisions())
+    return put_in_force(linked_arithmetic(BITS, decisions or Decisions()))
 
 
 def between(low: float, high: float) -> LinkedBall:
@@ -126,7 +127,7 @@ def test_a_root_near_zero_is_as_wide_as_the_root_of_its_range() -> None:
 
 
 def test_numbers_of_a_list_of_constants_are_each_its_own() -> None:
-    made = linked_arithmetic(BITS, Decisions(), {"spread": [arb(0, 1), arb(0, 1)]})
-    first, second = made.functions["spread"]
+    constants = Behaviour(constants={"spread": [arb(0, 1), arb(0, 1)]}).with_numbers(arithmetic().functions["ball"])
+    first, second = constants.constants["spread"]
     assert enclosure(first - first).rad() < 1e-6
     assert enclosure(first - second).rad() >= 2

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from raytruth.reference_tracer.arithmetics.balls import Decisions
 from raytruth.reference_tracer.arithmetics.linked_arithmetic import linked_arithmetic
 from raytruth.reference_tracer.arithmetics.linked_balls import LinkedBall, condensed, difference, enclosure
-from tests.reference_tracer.kernels import kept_precision
+from tests.reference_tracer.kernels import kept_precision, put_in_force
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -39,7 +39,7 @@ def keep_precision() -> Iterator[None]:
 
 
 def arithmetic() -> Any:
-    return linked_arithmetic(BITS, Decisions())
+    return put_in_force(linked_arithmetic(BITS, Decisions()))
 
 
 def run(operations: dict[str, Any], steps: list[tuple[str, int, int]], inputs: list[Any]) -> list[Any]:
@@ -132,7 +132,7 @@ def test_a_rotation_repeated_a_hundred_times_grows_the_error_in_proportion() -> 
 @pytest.mark.parametrize("bits", [11, 24, 53])
 @given(value=st.floats(1e-6, 1e6))
 def test_the_width_is_a_roundoff_an_operation_in_every_precision(bits: int, value: float) -> None:
-    made = linked_arithmetic(bits, Decisions())
+    made = put_in_force(linked_arithmetic(bits, Decisions()))
     root = made.functions["sqrt"](made.number(value))
     unit = 2.0**-bits
     radius = float(enclosure(root).rad())

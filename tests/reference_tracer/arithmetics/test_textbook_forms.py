@@ -7,9 +7,10 @@ import pytest
 from flint import arb
 
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, make_kernel
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS, VARIANTS
 from raytruth.reference_tracer.rendering import render
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.reference_tracer.kernels import ball_kernel, kept_precision
 from tests.reference_tracer.small_scenes import library_scene
 
@@ -24,14 +25,14 @@ def test_a_variant_gives_the_same_pictures_of_benign_scenes(name: str) -> None:
     for scene_name in SCENES:
         scene = library_scene(scene_name, 16, 12)
         expected = render(scene, FLOAT).astype(float)
-        image = render(scene, FLOAT, VARIANTS[name]).astype(float)
+        image = render(scene, FLOAT, Behaviour(VARIANTS[name])).astype(float)
         # Rounding, 1e-16, grown by a path of a few bounces off curved surfaces: far below what any picture shows.
         np.testing.assert_allclose(image, expected, rtol=1e-11, atol=1e-12 * expected.max())
 
 
 @pytest.mark.parametrize("name", VARIANTS)
 def test_a_variant_is_not_the_default(name: str) -> None:
-    variant = make_kernel(FLOAT, set(Feature), VARIANTS[name])
+    variant = make_kernel(FLOAT, set(Feature), Behaviour(VARIANTS[name]))
     default = make_kernel(FLOAT, set(Feature))
     x: Any = np.random.default_rng(1)
     for _ in range(200):

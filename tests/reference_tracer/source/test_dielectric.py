@@ -8,7 +8,7 @@ import pytest
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.source import scene_data as layout
 from raytruth.reference_tracer.source.dielectric import index_ratio, medium_beyond
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 from tests.reference_tracer.kernels import EXACT, exact_kernel, scene_data
 
 WATER, GLASS, CLASSICAL = 0, 1, 2

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from raytruth.reference_tracer.source import features
-from raytruth.scenes.requirements import Feature
+from raytruth.scenes.features import Feature
 
 pytestmark = pytest.mark.clause("SCN-6")
 

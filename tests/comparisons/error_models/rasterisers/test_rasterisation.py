@@ -13,21 +13,13 @@ from raytruth.comparisons.feasible_sets.feasible_set import UNUSED, feasible_set
 from raytruth.comparisons.judgement.first_hit_test import judge_first_hits
 from raytruth.reference_tracer.rendering import first_hits, prepare
 from tests.comparisons.drawn_triangles import ORTHOGRAPHIC, PERSPECTIVE, drawn, triangle_scene
-from tests.reference_tracer.kernels import kept_precision
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from raytruth.comparisons.records.renderings import FirstHits
 
 MODEL = ErrorModel("", 24, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=24, light_bits=22))
 PROJECTIONS = pytest.mark.parametrize("projection", [PERSPECTIVE, ORTHOGRAPHIC], ids=["perspective", "orthographic"])
-pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
-
-
-@pytest.fixture
-def keep_precision() -> Iterator[None]:
-    yield from kept_precision()
+pytestmark = pytest.mark.clause("VER-2")
 
 
 @PROJECTIONS

@@ -13,6 +13,7 @@ from raytruth.comparisons.error_models.rasterisers.view_volume import camera_axe
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from raytruth.comparisons.judgement.exact_test import judge_image
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.rendering import render
 from raytruth.reference_tracer.source.reflection import mirror_direction
 from raytruth.reference_tracer.source.traversal import surface_normal
@@ -20,17 +21,14 @@ from raytruth.reference_tracer.source.vector import add, along, dot, scale
 from raytruth.scenes.exporters.triangle_soup import material_of_each_triangle, triangles_of_scene
 from tests.comparisons.drawn_triangles import F, drawn, drawn_positions
 from tests.comparisons.lit_triangles import BEHIND, CAMERA, PARALLEL, SUN, plates, radiometric_plates
-from tests.reference_tracer.kernels import kept_precision
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from numpy.typing import NDArray
 
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
     from raytruth.scenes.scene import Scene
 
-pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2", "ILL-1", "ILL-2", "ILL-5")]
+pytestmark = pytest.mark.clause("VER-2", "ILL-1", "ILL-2", "ILL-5")
 
 MODEL = ErrorModel("", 24, rasterisation=Rasterisation(subpixel_bits=8, depth_bits=24, light_bits=22))
 SCENES = {
@@ -40,17 +38,9 @@ SCENES = {
 }
 
 
-@pytest.fixture
-def keep_precision() -> Iterator[None]:
-    yield from kept_precision()
-
-
 @pytest.fixture(scope="module")
-def feasible() -> Iterator[dict[str, FeasibleSet]]:
-    keep = kept_precision()
-    next(keep)
-    yield {name: feasible_set(scene, MODEL) for name, scene in SCENES.items()}
-    next(keep, None)
+def feasible() -> dict[str, FeasibleSet]:
+    return {name: feasible_set(scene, MODEL) for name, scene in SCENES.items()}
 
 
 def failing(image: Any, feasible: FeasibleSet) -> int:
@@ -164,7 +154,7 @@ def no_light(*arguments: Any) -> Any:  # noqa: ARG001 - as above
     ],
 )
 def test_a_fault_of_a_tracer_fails(function: str, fault: Any, feasible: dict[str, FeasibleSet]) -> None:
-    assert failing(render(SCENES["plates"], FLOAT, {function: fault}), feasible["plates"]) > 10
+    assert failing(render(SCENES["plates"], FLOAT, Behaviour({function: fault})), feasible["plates"]) > 10
 
 
 @pytest.mark.clause("VER-3")

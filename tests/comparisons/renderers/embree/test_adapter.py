@@ -12,18 +12,19 @@ import numpy as np
 import pytest
 
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
-from raytruth.comparisons.judgement.verdict import Evidence
-from raytruth.comparisons.matrix.cell import CellPlace, run_cell
+from raytruth.comparisons.judgement.verdict import Evidence, gather_evidence
+from raytruth.comparisons.matrix.cell import run_cell
 from raytruth.comparisons.matrix.comparability import depth_or_reason
-from raytruth.comparisons.records.renderings import Rays, RendererError
+from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.embree import adapter
 from raytruth.comparisons.renderers.embree.adapter import embree, embree_robust
 from raytruth.comparisons.renderers.embree.job import RESULT_FILE
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
-from raytruth.reference_tracer.rendering import primary_rays, render
+from raytruth.reference_tracer.rendering import render
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.shapes import Sphere
+from tests.comparisons.matrix.cell_places import place_of
 from tests.scenes.exporter_scenes import BALL, POINT, RED, build
 
 if TYPE_CHECKING:
@@ -53,12 +54,12 @@ SUN = {"kind": "directional", "direction": (-0.3, -1.0, 0.2), "irradiance": (1.0
 def evidence(renderer: Renderer) -> Evidence:
     scene = build(materials={"m": RED}, objects=[FLOOR, ROOF], lights=[POINT, SUN])
     truth = np.asarray(render(scene, FLOAT), dtype=np.float64)
-    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible_set(scene, renderer.error_model))
+    return gather_evidence(scene, truth, feasible_set(scene, renderer.error_model))
 
 
 def cell_of(renderer: Renderer, integrator: str, folder: Path) -> Cell:
-    place = CellPlace("small", renderer.name, integrator, key="", source="small")
-    return run_cell(place, renderer, 0, evidence(renderer), folder)
+    by = evidence(renderer)
+    return run_cell(place_of(by.scene, renderer, integrator), 0, by, folder)
 
 
 @needs_embree

@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
-from raytruth.comparisons.judgement.verdict import Evidence
-from raytruth.comparisons.matrix.cell import CellPlace, run_cell
-from raytruth.comparisons.records.renderings import Rays
+from raytruth.comparisons.judgement.verdict import Evidence, gather_evidence
+from raytruth.comparisons.matrix.cell import run_cell
 from raytruth.comparisons.renderers.vtk.adapter import Vtk
-from raytruth.reference_tracer.rendering import primary_rays
+from tests.comparisons.matrix.cell_places import place_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,10 +29,10 @@ def evidence_of(scene: Scene, *, with_colors: bool) -> Evidence:
     """What a scene's cells are judged by; the truth that they are shown beside is black."""
     truth = np.zeros((scene.camera.height, scene.camera.width, 3))
     feasible = feasible_set(scene, Vtk.error_model, with_colors=with_colors)
-    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible)
+    return gather_evidence(scene, truth, feasible)
 
 
 def cell_of(scene: Scene, integrator: str, folder: Path, evidence: Evidence | None = None) -> Cell:
     """VTK's cell of a scene."""
     evidence = evidence or evidence_of(scene, with_colors=integrator == "local")
-    return run_cell(CellPlace("small", "vtk", integrator, key="", source="small"), Vtk(), 0, evidence, folder)
+    return run_cell(place_of(scene, Vtk(), integrator), 0, evidence, folder)

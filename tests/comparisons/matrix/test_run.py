@@ -10,17 +10,19 @@ import pytest
 from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.feasible_sets import kept_feasible_sets
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
-from raytruth.comparisons.matrix import kept_versions, matrix
+from raytruth.comparisons.matrix import cell_key, run
 from raytruth.comparisons.matrix.cell import CELL_FILE
-from raytruth.comparisons.matrix.matrix import Plan, cell_key, plan_run, run_plan
+from raytruth.comparisons.matrix.plan import plan_run
+from raytruth.comparisons.matrix.run import run_plan
 from raytruth.comparisons.records.image_files import read_image
 from raytruth.comparisons.records.renderings import Rays, RendererError, Rendering
-from raytruth.comparisons.records.results import Cell, Verdict
+from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.closed_form.adapter import ClosedFormRenderer
 from raytruth.comparisons.renderers.protocol import Integrator
 from raytruth.reference_tracer.rendering import primary_rays
 from raytruth.scenes.light_paths import WHITTED
 from tests.comparisons.matrix.pretending import Pretender, truthful
+from tests.comparisons.matrix.runs import forget_version, opened, plan, ran
 from tests.comparisons.matrix.scene_files import scene_file
 
 if TYPE_CHECKING:
@@ -34,30 +36,9 @@ pytestmark = pytest.mark.clause("RES-3")
 FIRST_HITS = (Integrator("first-hits", "E", gives="first hits"),)
 
 
-@pytest.fixture
-def pretender(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Pretender:
-    """The one renderer there is; scenes are rendered in this process, where it can be counted."""
-    renderer = Pretender()
-    for module in (kept_versions, kept_feasible_sets):
-        monkeypatch.setattr(module, "cache_folder", lambda: tmp_path / "cache")
-    monkeypatch.setattr(matrix, "all_renderers", lambda: {"pretender": renderer})
-    monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
-    return renderer
-
-
-def plan(sources: list[str], out: Path, *, fresh: bool = False) -> Plan:
-    return plan_run(sources, ["pretender"], out, fresh=fresh)
-
-
-def ran(sources: list[str], out: Path, *, fresh: bool = False) -> list[Cell]:
-    """The cells of a whole run."""
-    planned = plan(sources, out, fresh=fresh)
-    return [*planned.settled, *run_plan(planned, out, jobs=1)]
-
-
 def test_a_scene_is_rendered_judged_and_its_truth_written(pretender: Pretender, tmp_path: Path) -> None:
     source = scene_file(tmp_path)
-    (cell,) = ran([source], tmp_path / "out")
+    (cell,) = ran(pretender, [source], tmp_path / "out")
     assert (cell.scene, cell.renderer, cell.integrator, cell.verdict) == ("small", "pretender", "whitted", Verdict.PASS)
     assert cell.images is not None
     assert read_image(tmp_path / "out" / cell.images.truth).shape == (3, 4, 3)
@@ -65,71 +46,18 @@ def test_a_scene_is_rendered_judged_and_its_truth_written(pretender: Pretender, 
     assert pretender.calls == 1
 
 
-@pytest.mark.clause("REN-5")
-def test_what_is_not_installed_is_unavailable_with_how_to_install_it(pretender: Pretender, tmp_path: Path) -> None:
-    pretender.installed = None
-    planned = plan([scene_file(tmp_path)], tmp_path / "out")
-    assert planned.by_scene == {}
-    (cell,) = planned.settled
-    assert cell.verdict == Verdict.UNAVAILABLE
-    assert "cannot be installed" in cell.reason
-
-
-@pytest.mark.clause("VER-8")
-def test_what_cannot_be_compared_is_settled_with_the_reason(pretender: Pretender, tmp_path: Path) -> None:
-    pretender.refusal = "it has no taste for spheres"
-    planned = plan([scene_file(tmp_path)], tmp_path / "out")
-    assert planned.by_scene == {}
-    assert [(cell.verdict, cell.reason) for cell in planned.settled] == [
-        (Verdict.INCOMPARABLE, "it has no taste for spheres")
-    ]
-
-
 def test_a_second_run_has_nothing_to_do_and_tells_the_same(pretender: Pretender, tmp_path: Path) -> None:
     source, out = scene_file(tmp_path), tmp_path / "out"
-    first = ran([source], out)
-    assert plan([source], out).by_scene == {}
-    assert ran([source], out) == first
+    first = ran(pretender, [source], out)
+    assert plan(pretender, [source], out).by_scene == {}
+    assert ran(pretender, [source], out) == first
     assert pretender.calls == 1
-
-
-def forget_version(folder: Path) -> None:
-    """As when what a trial depends on has changed."""
-    (folder / "cache" / "versions" / "pretender.txt").unlink()
-
-
-def test_where_nothing_is_to_render_no_renderer_is_tried(pretender: Pretender, tmp_path: Path) -> None:
-    source, out = scene_file(tmp_path), tmp_path / "out"
-    ran([source], out)
-    assert pretender.trials == 1
-    assert plan([source], out).versions == {"pretender": "pretender 1"}
-    assert pretender.trials == 1
-    forget_version(tmp_path)
-    assert plan([source], out).by_scene == {}
-    assert pretender.trials == 2
-
-
-def test_before_anything_is_rendered_the_renderer_is_tried_again(pretender: Pretender, tmp_path: Path) -> None:
-    source, out = scene_file(tmp_path), tmp_path / "out"
-    ran([source], out)
-    pretender.installed = None
-    more = plan([source, scene_file(tmp_path, "more")], out)
-    assert more.versions == {"pretender": None}
-    assert {cell.verdict for cell in more.settled} == {Verdict.UNAVAILABLE}
-    assert more.by_scene == {}
-
-
-def test_fresh_tries_again(pretender: Pretender, tmp_path: Path) -> None:
-    source, out = scene_file(tmp_path), tmp_path / "out"
-    ran([source], out)
-    pretender.installed = None
-    assert plan([source], out, fresh=True).versions == {"pretender": None}
 
 
 def test_fresh_renders_again(pretender: Pretender, tmp_path: Path) -> None:
     source, out = scene_file(tmp_path), tmp_path / "out"
-    ran([source], out)
-    ran([source], out, fresh=True)
+    ran(pretender, [source], out)
+    ran(pretender, [source], out, fresh=True)
     assert pretender.calls == 2
 
 
@@ -137,18 +65,18 @@ def test_another_version_or_scene_or_code_of_ours_is_rendered_again(
     pretender: Pretender, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     source, out = scene_file(tmp_path), tmp_path / "out"
-    ran([source], out)
+    ran(pretender, [source], out)
     pretender.installed = "pretender 2"
     forget_version(tmp_path)
-    assert ran([source], out)[0].version == "pretender 2"
+    assert ran(pretender, [source], out)[0].version == "pretender 2"
     assert pretender.calls == 2
     scene_file(tmp_path, materials={"m": {"diffuse": {"reflectance": [1, 0.5, 0.5]}}})
-    ran([source], out)
+    ran(pretender, [source], out)
     assert pretender.calls == 3
     monkeypatch.setattr(cell_key, "source_digest", lambda *_, **__: "another")
-    ran([source], out)
+    ran(pretender, [source], out)
     assert pretender.calls == 4
-    ran([source], out)
+    ran(pretender, [source], out)
     assert pretender.calls == 4
 
 
@@ -164,19 +92,8 @@ def test_an_error_is_tried_again_and_a_failure_is_not(pretender: Pretender, tmp_
     source, out = scene_file(tmp_path), tmp_path / "out"
     for answer, verdict in [(failing, Verdict.ERROR), (black, Verdict.FAIL), (truthful, Verdict.FAIL)]:
         pretender.answer = answer
-        assert ran([source], out)[0].verdict == verdict
+        assert ran(pretender, [source], out)[0].verdict == verdict
     assert pretender.calls == 2
-
-
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"scene": "small"}', "null"])
-def test_a_broken_cell_of_an_earlier_run_is_ignored(text: str, pretender: Pretender, tmp_path: Path) -> None:
-    source, out = scene_file(tmp_path), tmp_path / "out"
-    ran([source], out)
-    path = out / "cells/small/pretender-whitted" / CELL_FILE
-    path.write_text(text)
-    assert ran([source], out)[0].verdict == Verdict.PASS
-    assert pretender.calls == 2
-    assert Cell.model_validate_json(path.read_text()).verdict == Verdict.PASS
 
 
 def test_a_scene_in_which_we_fail_ourselves_is_an_error_and_the_others_go_on(
@@ -190,7 +107,7 @@ def test_a_scene_in_which_we_fail_ourselves_is_an_error_and_the_others_go_on(
     pretender.answer = sometimes
     sources = [scene_file(tmp_path, name) for name in ("bad", "good", "better")]
     out = tmp_path / "out"
-    cells = {cell.scene: cell for cell in ran(sources, out)}
+    cells = {cell.scene: cell for cell in ran(pretender, sources, out)}
     assert {name: cell.verdict for name, cell in cells.items()} == {
         "bad": Verdict.ERROR,
         "good": Verdict.PASS,
@@ -198,22 +115,22 @@ def test_a_scene_in_which_we_fail_ourselves_is_an_error_and_the_others_go_on(
     }
     assert "ZeroDivisionError: float division by zero" in cells["bad"].reason
     assert not (out / cells["bad"].scene / CELL_FILE).exists()
-    assert set(plan(sources, out).by_scene) == {sources[0]}
+    assert set(plan(pretender, sources, out).by_scene) == {sources[0]}
 
 
 def test_when_the_caller_stops_what_is_finished_stays(pretender: Pretender, tmp_path: Path) -> None:
     sources = [scene_file(tmp_path, name) for name in "abcdef"]
     out = tmp_path / "out"
-    cells = run_plan(plan(sources, out), out, jobs=1)
+    cells = run_plan(plan(pretender, sources, out), out, jobs=1)
     first = next(cells)
     assert isinstance(cells, Generator)
     cells.close()
     assert pretender.calls < len(sources)
-    left = plan(sources, out)
+    left = plan(pretender, sources, out)
     assert first in left.settled
     assert len(left.settled) == pretender.calls
     assert len(left.by_scene) == len(sources) - pretender.calls
-    assert len(ran(sources, out)) == len(sources)
+    assert len(ran(pretender, sources, out)) == len(sources)
     assert pretender.calls == len(sources)
 
 
@@ -239,15 +156,15 @@ def test_the_feasible_set_is_made_once_for_renderers_of_one_error_model(
     monkeypatch.setattr(kept_feasible_sets, "cache_folder", lambda: tmp_path / "cache")
     other, third = (ErrorModel("float32", precision_bits=bits) for bits in (24, 23))
     both = (Integrator("whitted", WHITTED, has_depth=True, gives="image and first hits"),)
-    renderers = {
-        "one": Pretender(name="one", integrators=both, answer=image_and_first_hits),
-        "two": Pretender(name="two", error_model=other, integrators=FIRST_HITS, answer=first_hits),
-        "three": Pretender(name="three"),
-        "four": Pretender(name="four", error_model=third, integrators=both, answer=image_and_first_hits),
-    }
-    monkeypatch.setattr(matrix, "all_renderers", lambda: renderers)
-    monkeypatch.setattr(matrix, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
-    cells = list(run_plan(plan_run([scene_file(tmp_path)], list(renderers), tmp_path, fresh=False), tmp_path, jobs=1))
+    renderers = [
+        Pretender(name="one", integrators=both, answer=image_and_first_hits),
+        Pretender(name="two", error_model=other, integrators=FIRST_HITS, answer=first_hits),
+        Pretender(name="three"),
+        Pretender(name="four", error_model=third, integrators=both, answer=image_and_first_hits),
+    ]
+    monkeypatch.setattr(run, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
+    planned = plan_run(opened([scene_file(tmp_path)]), renderers, tmp_path, fresh=False)
+    cells = list(run_plan(planned, tmp_path, jobs=1))
     assert [(cell.renderer, cell.verdict) for cell in cells] == [
         ("one", Verdict.PASS),
         ("three", Verdict.PASS),
@@ -265,6 +182,6 @@ def test_the_feasible_set_is_made_once_for_renderers_of_one_error_model(
 def test_scenes_run_in_processes_of_their_own(tmp_path: Path) -> None:
     sources = [scene_file(tmp_path, name) for name in ("one", "two")]
     out = tmp_path / "out"
-    planned = plan_run(sources, ["closed_form"], out, fresh=False)
+    planned = plan_run(opened(sources), [ClosedFormRenderer()], out, fresh=False)
     cells = list(run_plan(planned, out, jobs=2))
     assert sorted((cell.scene, cell.verdict) for cell in cells) == [("one", Verdict.PASS), ("two", Verdict.PASS)]

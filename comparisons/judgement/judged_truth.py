@@ -1,0 +1,32 @@
+"""The truth that a scene's images are judged by, as one value a pixel."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from raytruth.reference_tracer.certified_image import certified_image
+from raytruth.reference_tracer.rendering import render
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from raytruth.scenes.scene import Scene
+
+
+def judged_truth(scene: Scene) -> NDArray[np.float64]:
+    """Linear RGB of shape (height, width, 3): the middles of the certified image's enclosures.
+
+    Where a pixel is undecided it is the outcome next to the value of the float64 image, if any outcome is known, and
+    else that value.
+    """
+    image = certified_image(scene)
+    truth = image.middle.copy()
+    if image.undecided:
+        rounded = np.asarray(render(scene), dtype=np.float64)
+        for (column, line), reason in image.undecided.items():
+            value = rounded[line, column]
+            outcomes = [outcome.middle for outcome in reason.outcomes] or [value]
+            truth[line, column] = min(outcomes, key=lambda outcome: float(np.abs(value - outcome).max()))
+    return truth

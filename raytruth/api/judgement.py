@@ -1,0 +1,98 @@
+"""The verdict on an image of anyone's: does every pixel lie in its feasible set?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from raytruth.comparisons.feasible_sets.kept_feasible_sets import kept_feasible_set
+from raytruth.comparisons.judgement.judged_truth import judged_truth
+from raytruth.comparisons.judgement.verdict import gather_evidence, judge_exact
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
+    from raytruth.comparisons.records.results import Verdict, WorstPixel
+    from raytruth.scenes.scene import Scene
+
+FLOATS = ("float16", "float32", "float64")
+
+
+@dataclass(frozen=True, eq=False)
+class ImageJudgement:
+    """What `judge` finds of an image."""
+
+    verdict: Verdict
+    """"pass" if every judged pixel lies in its feasible set, and at least one could be judged; else "fail"."""
+    reason: str
+    """The verdict in words, with its counts."""
+    pixels: int
+    """How many the image has."""
+    failing: int
+    """How many lie outside their feasible sets."""
+    unjudged: int
+    """Of how many the error model leaves everything open."""
+    capped: int
+    """How many have more outcomes than are told apart, so that one box holds several."""
+    ambiguous: int
+    """How many have more than one outcome, as on edges and at the rims of shadows."""
+    worst: WorstPixel
+    """The one with the largest distance, whether it fails or not."""
+    distances: NDArray[np.float64]
+    """Each pixel's distance from the middle of its nearest outcome, in tolerances; shape (height, width).
+
+    Up to 1 the pixel is feasible; infinity where there is no tolerance at all; -1 where the pixel is not judged.
+    """
+
+
+def feasible_set(scene: Scene, error_model: ErrorModel) -> FeasibleSet:
+    """All that a renderer with this error model may give each pixel of the scene; kept in the cache."""
+    return kept_feasible_set(scene, error_model)
+
+
+def judge(image: NDArray[np.floating[Any]], scene: Scene, error_model: ErrorModel) -> ImageJudgement:
+    """The verdict on an image that was rendered without random numbers, as the matrix gives it.
+
+    The image is linear RGB of the scene's size, shape (height, width, 3), row 0 on top, in float16, float32 or float64.
+    Its values are judged as they are given: where a file holds integers, they are the linear values that
+    `error_model.output.linear_values` reads from these. The truth and the feasible set are kept in the cache.
+
+    Raises ValueError for another shape or type of numbers, and for an image that holds NaN.
+    """
+    _check(image, scene)
+    values: Any = image.astype(np.float64)  # holds every number of the narrower types
+    judged = judge_exact(values, gather_evidence(scene, judged_truth(scene), kept_feasible_set(scene, error_model)))
+    counts = judged.judgement
+    assert counts.worst is not None, "an image has a pixel"
+    return ImageJudgement(
+        verdict=judged.verdict,
+        reason=judged.reason,
+        pixels=counts.pixels,
+        failing=counts.failing,
+        unjudged=counts.unjudged,
+        capped=counts.capped,
+        ambiguous=counts.ambiguous,
+        worst=counts.worst,
+        distances=judged.distances.max(axis=2),
+    )
+
+
+def _check(image: NDArray[Any], scene: Scene) -> None:
+    if not isinstance(image, np.ndarray):
+        raise ValueError(f"expected an image as a NumPy array, found {type(image).__name__}.")
+    if image.dtype.name not in FLOATS:
+        raise ValueError(f"expected an image of {', '.join(FLOATS)}, found {image.dtype.name}.")
+    expected = (scene.camera.height, scene.camera.width, 3)
+    if image.shape != expected:
+        raise ValueError(f"expected an image of shape {expected} (height, width, RGB), found {image.shape}.")
+    is_nan = np.isnan(image).any(axis=2)
+    if is_nan.any():
+        row, column = np.argwhere(is_nan)[0]
+        raise ValueError(
+            f"expected numbers in an image, found {is_nan.sum()} pixels that hold NaN, "
+            f"the first of them at column {column}, row {row}."
+        )

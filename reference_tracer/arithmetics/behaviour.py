@@ -1,0 +1,59 @@
+"""What a tracer computes otherwise than the source says: functions in place of the source's own, and what they need."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+Function = Callable[..., Any]
+
+
+@dataclass(frozen=True)
+class Behaviour:
+    """Changes of the tracer's source that belong together.
+
+    Its functions are source, too: their text becomes part of the kernel, where it may use all that the source has.
+    """
+
+    functions: Mapping[str, Function] = field(default_factory=dict)
+    """By the name of the function of the source that each stands in for; both have the same parameters."""
+    helpers: tuple[Function, ...] = ()
+    """Further functions that those call, by names that the source does not have."""
+    constants: Mapping[str, Any] = field(default_factory=dict)
+    """What the functions name but do not define: numbers of the kernel's number type, or lists of them."""
+    name: str = "a behaviour"
+    """What it is called in messages."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All names that it gives a meaning."""
+        return (*self.functions, *(helper.__name__ for helper in self.helpers), *self.constants)
+
+    def with_numbers(self, number: Function) -> Behaviour:
+        """The same for another number type: `number` makes each constant, and each number of a list, one of it."""
+        constants = {
+            name: [number(single) for single in value] if isinstance(value, list) else number(value)
+            for name, value in self.constants.items()
+        }
+        return replace(self, constants=constants)
+
+
+IDEAL = Behaviour(name="the source's own behaviour")
+"""As the source says."""
+
+
+def merged(*behaviours: Behaviour) -> Behaviour:
+    """All of them at once. Raises ValueError if a name is given a meaning twice."""
+    owners: dict[str, str] = {}
+    for behaviour in behaviours:
+        for name in behaviour.names:
+            if name in owners:
+                raise ValueError(f"{owners[name]} and {behaviour.name} both say what {name} is")
+            owners[name] = behaviour.name
+    return Behaviour(
+        {name: function for behaviour in behaviours for name, function in behaviour.functions.items()},
+        tuple(helper for behaviour in behaviours for helper in behaviour.helpers),
+        {name: value for behaviour in behaviours for name, value in behaviour.constants.items()},
+        " and ".join(behaviour.name for behaviour in behaviours if behaviour.names),
+    )
