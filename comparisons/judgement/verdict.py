@@ -90,7 +90,9 @@ def judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
     distances = _distances(outcome)
     within_range = unjudged & (outcome.p_values >= SIGNIFICANCE).all(axis=2)
     distances = np.where(within_range[..., np.newaxis], UNJUDGED, distances)
-    by_shortcut = ~unjudged & (distances.max(axis=2) <= 1) & _is_not_due(rendering, evidence.feasible, most)
+    by_shortcut: NDArray[np.bool_] = (
+        ~unjudged & (distances.max(axis=2) <= 1) & _is_not_due(rendering, evidence.feasible, most)
+    )
     declared = as_declared(rendering.image, evidence.truth, by_shortcut)
     judgement = judgement_of(distances.max(axis=2), rendering.image, evidence.truth, evidence.feasible, declared)
     one_box = np.zeros(unjudged.shape, dtype=np.int64)
@@ -110,8 +112,7 @@ def _is_not_due(rendering: Rendering, feasible: FeasibleSet, most: float) -> NDA
     low, high = (np.clip(np.nan_to_num(end), 0.0, most) / most for end in feasible.hull(due_only=True))
     mean = np.clip(np.asarray(rendering.image, dtype=np.float64) / most, 0.0, 1.0)
     p_values = mean_p_values(mean, low, high, np.array(rendering.samples)) * mean.size
-    rejected: NDArray[np.bool_] = (p_values < SIGNIFICANCE).any(axis=2)
-    return rejected
+    return np.asarray((p_values < SIGNIFICANCE).any(axis=2))
 
 
 def of_pixel_areas(evidence: Evidence) -> Evidence:
