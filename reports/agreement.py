@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from raytruth.comparisons.records.results import Cell, Results
 
-JUDGED = {Verdict.PASS, Verdict.FAIL}
+JUDGED = {Verdict.PASS, Verdict.DECLARED, Verdict.FAIL}
 
 
 @dataclass(frozen=True)
@@ -56,14 +56,19 @@ def families(results: Results) -> dict[str, str]:
 
 
 def confirming(results: Results) -> dict[str, tuple[str, ...]]:
-    """For each scene the families of which a cell passes and none fails, in alphabetical order."""
+    """For each scene the families of which a cell passes and none fails, in alphabetical order.
+
+    What is as declared, not as due, confirms nothing.
+    """
     known = families(results)
-    found: dict[str, dict[str, bool]] = {scene.name: {} for scene in results.scenes}
+    verdicts: dict[str, dict[str, set[Verdict]]] = {scene.name: {} for scene in results.scenes}
     for cell in results.cells:
         if cell.verdict in JUDGED and cell.renderer in known:
-            family = known[cell.renderer]
-            found[cell.scene][family] = found[cell.scene].get(family, True) and cell.verdict == Verdict.PASS
-    return {scene: tuple(sorted(name for name, right in of.items() if right)) for scene, of in found.items()}
+            verdicts[cell.scene].setdefault(known[cell.renderer], set()).add(cell.verdict)
+    return {
+        scene: tuple(sorted(name for name, found in of.items() if Verdict.PASS in found and Verdict.FAIL not in found))
+        for scene, of in verdicts.items()
+    }
 
 
 def in_one_line(results: Results) -> str | None:
@@ -91,7 +96,7 @@ def agreement_on(directory: Path, results: Results, scene: str) -> Agreement | N
         (i, j): None if (a := opinions[i]) is None or (b := opinions[j]) is None else _compare(a, b)
         for i, j in combinations(range(len(cells)), 2)
     }
-    sentences = (_confirmation(cells, known), *_wrong(cells, opinions, known))
+    sentences = (_confirmation(cells, known), *_wrong(cells, opinions, known), *_declared(cells))
     return Agreement(tuple(map(_name, cells)), tuple(map(_with_truth, cells)), pairs, sentences)
 
 
@@ -146,22 +151,35 @@ def _compare(a: _Opinion, b: _Opinion) -> Comparison | None:
 
 def _with_truth(cell: Cell) -> Comparison:
     part = cell.judgement if cell.judgement is not None else cell.first_hits
-    return Comparison(cell.verdict == Verdict.PASS, cell.largest_error, part.failing if part is not None else None)
+    if part is None:
+        return Comparison(cell.verdict == Verdict.PASS, cell.largest_error, None)
+    declared = part.declared if isinstance(part.declared, int) else part.declared.count if part.declared else 0
+    return Comparison(cell.verdict == Verdict.PASS, cell.largest_error, part.failing + declared)
 
 
 def _confirmation(cells: list[Cell], known: Mapping[str, str]) -> str:
     """How many opinions there are, and how many agree with the truth."""
     wrong = {known[cell.renderer] for cell in cells if cell.verdict == Verdict.FAIL}
-    right = {known[cell.renderer] for cell in cells} - wrong
-    seen = {known[cell.renderer] for cell in cells if cell.images is not None}
+    right = {known[cell.renderer] for cell in cells if cell.verdict == Verdict.PASS} - wrong
+    opinions = {known[cell.renderer] for cell in cells}
+    seen = {known[cell.renderer] for cell in cells if cell.images is not None and cell.verdict != Verdict.DECLARED}
     if not right:
         return "No independent reference agrees with the truth here."
     names = listed([name if name in seen else f"{name} (first hits only)" for name in sorted(right)])
-    if len(right) == 1 and not wrong:
+    if len(opinions) == 1:
         return f"One independent reference agrees with the truth: {names}."
     everyone = "Both" if len(right) == 2 else f"All {len(right)}"
-    count = f"{len(right)} of {len(right | wrong)}" if wrong else everyone
+    count = everyone if right == opinions else f"{len(right)} of {len(opinions)}"
     return f"{count} independent references {'agree' if len(right) > 1 else 'agrees'} with the truth: {names}."
+
+
+def _declared(cells: list[Cell]) -> list[str]:
+    """A sentence for each reference that is as declared, not as due."""
+    return [
+        f"{_name(cell)} is as declared, not as due, and confirms nothing there: {cell.reason}."
+        for cell in cells
+        if cell.verdict == Verdict.DECLARED
+    ]
 
 
 def _wrong(cells: list[Cell], opinions: list[_Opinion | None], known: Mapping[str, str]) -> list[str]:

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 STYLES: dict[str, str] = {
     Verdict.PASS: "green",
+    Verdict.DECLARED: "blue",
     Verdict.FAIL: "bold red",
     WAIVED: "yellow",
     Verdict.INCOMPARABLE: "dim",
@@ -48,7 +49,7 @@ def print_matrix(results: Results, console: Console, report: Path | None = None)
     if console.is_terminal:
         _print_table(results, console)
         for cell in results.cells:
-            if cell.verdict in {Verdict.FAIL, Verdict.ERROR}:
+            if cell.verdict in {Verdict.DECLARED, Verdict.FAIL, Verdict.ERROR}:
                 console.print(_trouble(cell, console))
     else:
         for cell in results.cells:

@@ -86,6 +86,7 @@ def _script(directory: Path, images: Images, anchor: str) -> tuple[str, tuple[in
         "outcomes": _packed(used.sum(axis=2), "u1"),
         "nearest": _packed(evidence.nearest, "u1"),
         "merged": _packed(evidence.merged, "u1"),
+        "declared": _packed(evidence.declared, "u1"),
         "low": _packed(evidence.low[used], "<f4"),
         "high": _packed(evidence.high[used], "<f4"),
     }

@@ -30,6 +30,12 @@ WAIVED = "waived"
 
 WORDINGS: dict[str, Wording] = {
     Verdict.PASS: Wording("✓", "pass", "passed", "every judged pixel is what a right renderer may give"),
+    Verdict.DECLARED: Wording(
+        "◐",
+        "declared",
+        "as declared, not as due",
+        "feasible, but visibly not the truth: by a shortcut that is declared",
+    ),
     Verdict.FAIL: Wording("✗", "fail", "failed", "at least one pixel cannot come from a right renderer"),
     WAIVED: Wording("≠", "waived", "failed as waived", "a failure of known reason, which does not make the run fail"),
     Verdict.INCOMPARABLE: Wording(
@@ -54,11 +60,11 @@ def outcome_counts(results: Results) -> dict[str, int]:
 def headline(results: Results) -> str:
     """The run's outcome in one sentence."""
     counts = outcome_counts(results)
-    troubles = {known: counts.get(known, 0) for known in (Verdict.FAIL, WAIVED, Verdict.ERROR)}
+    troubles = {known: counts.get(known, 0) for known in (Verdict.DECLARED, Verdict.FAIL, WAIVED, Verdict.ERROR)}
     judged = counts[Verdict.PASS] + sum(troubles.values())
     told = [f"{count} {WORDINGS[known].counted}" for known, count in troubles.items() if count]
     if told:
-        return f"Of {judged} comparable {plural('cell', judged)}, {' and '.join(told)}"
+        return f"Of {judged} comparable {plural('cell', judged)}, {listed(told)}"
     if judged == 0:
         return "No cell could be compared"
     return "The one comparable cell passed" if judged == 1 else f"All {judged} comparable cells passed"

@@ -13,17 +13,17 @@ BEGIN, END = "matrix: begin -->\n", "<!-- matrix: end -->"
 
 def table(results: Results) -> str:
     """How many scenes pass on each renderer and integrator, and the largest error of a scene without random numbers."""
-    lines = ["| renderer | integrator | pass | fail or error | incomparable | largest error, median over scenes |"]
-    lines.append("|---|---|--:|--:|--:|--:|")
+    heads = ("renderer", "integrator", "pass", "declared", "fail or error", "incomparable", "largest error, median")
+    lines = [f"| {' | '.join(heads)} |", "|---|---|--:|--:|--:|--:|--:|"]
     for renderer, integrator in sorted({(cell.renderer, cell.integrator) for cell in results.cells}):
         cells = [cell for cell in results.cells if (cell.renderer, cell.integrator) == (renderer, integrator)]
         counts = [
             sum(cell.verdict in group for cell in cells)
-            for group in ({Verdict.PASS}, {Verdict.FAIL, Verdict.ERROR}, {Verdict.INCOMPARABLE})
+            for group in ({Verdict.PASS}, {Verdict.DECLARED}, {Verdict.FAIL, Verdict.ERROR}, {Verdict.INCOMPARABLE})
         ]
         errors = sorted(c.largest_error for c in cells if c.largest_error is not None and c.stochastic is None)
         median = f"{errors[len(errors) // 2]:.1e}" if errors else ""
-        lines.append(f"| `{renderer}` | {integrator} | {counts[0]} | {counts[1]} | {counts[2]} | {median} |")
+        lines.append(f"| `{renderer}` | {integrator} | {' | '.join(map(str, counts))} | {median} |")
     return "\n".join(lines)
 
 

@@ -15,7 +15,7 @@ import flint
 import numpy as np
 
 from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet, feasible_set
-from raytruth.reference_tracer.certified_image import TRUTH_ROOMS
+from raytruth.reference_tracer.certified_image import TRUTH_ROOMS, certified_image
 from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
 from raytruth.reference_tracer.storage.source_digest import source_digest
 
@@ -30,7 +30,8 @@ FEASIBLE_SET_ROOMS = (
     "comparisons/error_models",
     "comparisons/error_models/rasterisers",
     "comparisons/feasible_sets",
-    "comparisons/records/srgb.py",  # of the output model
+    "comparisons/measures/visibility.py",
+    "comparisons/records/srgb.py",  # of the output model, and of what is visible
     "scenes/exporters/triangle_soup.py",  # of rasterisers
 )
 """What a feasible set depends on: the tracer that is evaluated, and what an error model does to it."""
@@ -45,7 +46,8 @@ def kept_feasible_set(scene: Scene, error_model: ErrorModel, *, with_colors: boo
     path = cache_folder() / "feasible" / f"{_digest(scene.name, repr(error_model), str(with_colors))}.npz"
     kept = _read(path, key)
     if kept is None:
-        kept = feasible_set(scene, error_model, with_colors=with_colors)
+        truth = certified_image(scene) if with_colors else None
+        kept = feasible_set(scene, error_model, truth=truth, with_colors=with_colors)
         _write(path, key, kept)
     return kept
 

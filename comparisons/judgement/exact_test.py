@@ -1,4 +1,4 @@
-"""The verdict on an image: does every pixel lie in its feasible set?"""
+"""Does every pixel of an image lie in its feasible set?"""
 
 from __future__ import annotations
 
@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.comparisons.feasible_sets.feasible_set import UNUSED
-from raytruth.comparisons.records.results import FirstHitComparison, Judgement, Verdict, WorstPixel
+from raytruth.comparisons.judgement.declared_pixels import as_declared, declared_pixels
+from raytruth.comparisons.records.results import Judgement, WorstPixel
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
-    from raytruth.comparisons.records.renderings import FirstHits
 
 UNJUDGED = -1.0
 """What a pixel that cannot be judged has in place of a distance in tolerances."""
@@ -33,6 +32,15 @@ class NearestOutcomes:
     tolerance at all; -1 where the pixel cannot be judged.
     """
 
+    is_due: NDArray[np.bool_]
+    """Whether that outcome is due at the pixel, and not only as declared; shape (height, width)."""
+
+    def by_shortcut(self) -> NDArray[np.bool_]:
+        """Which pixels only a declared shortcut explains, shape (height, width)."""
+        distances = self.in_tolerances()
+        explained: NDArray[np.bool_] = (distances >= 0) & (distances <= 1) & ~self.is_due
+        return explained
+
     def in_tolerances(self) -> NDArray[np.float64]:
         """Each pixel's largest distance, shape (height, width): up to 1 the pixel is feasible."""
         worst: NDArray[np.float64] = self.distances.max(axis=2)
@@ -40,12 +48,18 @@ class NearestOutcomes:
 
 
 def nearest_outcomes(image: ArrayLike, feasible: FeasibleSet) -> NearestOutcomes:
-    """Where the values of an image of shape (height, width, 3) lie in their feasible sets."""
+    """Where the values of an image of shape (height, width, 3) lie in their feasible sets.
+
+    A value that lies in several boxes is taken for what is due, if one of them is.
+    """
     distances = _channel_distances(np.asarray(image, dtype=np.float64), feasible.low, feasible.high)
-    places = distances.max(axis=3).argmin(axis=2)
+    worst = distances.max(axis=3)
+    is_due = feasible.due & (worst <= 1)
+    places = np.where(is_due, -1.0, worst).argmin(axis=2)  # -1 is less than any distance
     nearest = np.take_along_axis(distances, places[:, :, np.newaxis, np.newaxis], axis=2)[:, :, 0]
     unjudged = (feasible.outcomes == 0)[..., np.newaxis]
-    return NearestOutcomes(places, np.where(unjudged, UNJUDGED, nearest))
+    nearest_is_due = np.take_along_axis(feasible.due, places[..., np.newaxis], axis=2)[..., 0]
+    return NearestOutcomes(places, np.where(unjudged, UNJUDGED, nearest), nearest_is_due)
 
 
 def distances_in_tolerances(image: ArrayLike, feasible: FeasibleSet) -> NDArray[np.float64]:
@@ -58,40 +72,30 @@ def judge_image(
 ) -> tuple[Judgement, NearestOutcomes]:
     """The counts and the worst pixel, and where each pixel's value lies."""
     nearest = nearest_outcomes(image, feasible)
-    return judgement_of(nearest.in_tolerances(), image, truth, feasible), nearest
+    declared = as_declared(image, truth, nearest.by_shortcut())
+    return judgement_of(nearest.in_tolerances(), image, truth, feasible, declared), nearest
 
 
 def judgement_of(
-    distances: NDArray[np.float64], image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet
+    distances: NDArray[np.float64],
+    image: NDArray[np.float32],
+    truth: NDArray[np.float64],
+    feasible: FeasibleSet,
+    declared: NDArray[np.bool_],
 ) -> Judgement:
-    """The counts and the worst pixel of an image whose pixels have these distances, shape (height, width)."""
+    """The counts and the worst pixel of an image whose pixels have these distances, shape (height, width).
+
+    `declared`, of the same shape, says which pixels are as declared, not as due.
+    """
     return Judgement(
         pixels=distances.size,
         failing=int((distances > 1).sum()),
         unjudged=int((feasible.outcomes == 0).sum()),
         capped=int(feasible.merged.sum()),
         ambiguous=int((feasible.outcomes > 1).sum()),
+        declared=declared_pixels(image, truth, declared),
         worst=worst_pixel(image, truth, feasible, distances),
     )
-
-
-def verdict_of(judgement: Judgement) -> tuple[Verdict, str]:
-    """Pass if every judged pixel lies in its feasible set, and at least one could be judged."""
-    judged = judgement.pixels - judgement.unjudged
-    if judged == 0:
-        return Verdict.FAIL, "no pixel could be judged: this arithmetic leaves everything open"
-    pixels = "judged pixels" if judgement.unjudged else "pixels"
-    aside = capped_in_words(judgement)
-    if judgement.failing:
-        return Verdict.FAIL, f"{judgement.failing} of {judged} {pixels} lie outside their feasible sets{aside}"
-    return Verdict.PASS, f"all {judged} {pixels} lie in their feasible sets{aside}"
-
-
-def capped_in_words(judgement: Judgement) -> str:
-    """The counts of pixels that are not judged by each of their outcomes, in parentheses; nothing if there are none."""
-    counts = {"in a box of several outcomes": judgement.capped, "not judged": judgement.unjudged}
-    words = [f"{count} {what}" for what, count in counts.items() if count]
-    return f" ({', '.join(words)})" if words else ""
 
 
 def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet) -> float:
@@ -108,42 +112,7 @@ def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasib
     return float(errors[feasible.outcomes > 0].max(initial=0.0))
 
 
-def judge_first_hits(hits: FirstHits, feasible: FeasibleSet) -> FirstHitComparison:
-    """The first hits against their feasible sets: primitive, distance, position and normal of one outcome must fit."""
-    with np.errstate(invalid="ignore"):
-        values = np.concatenate([hits.depth[..., np.newaxis], hits.position, hits.normal], axis=2)
-    places = feasible.hit_primitives != UNUSED
-    same_primitive = places & (feasible.hit_primitives == hits.primitive[..., np.newaxis])
-    nothing = hits.primitive < 0
-    fits = _box_distances(values, feasible.hit_low, feasible.hit_high) <= 1
-    agrees = (same_primitive & (fits | nothing[..., np.newaxis])).any(axis=2)
-    judged = places.any(axis=2)
-    certain = judged & (places.sum(axis=2) == 1)
-    compared = certain & ~nothing & same_primitive[..., 0]
-    middles = 0.5 * (feasible.hit_low + feasible.hit_high)[..., 0, :]
-    differences = np.abs(values - middles)[compared]
-    largest = differences.max(axis=0) if len(differences) else np.zeros(values.shape[2])
-    return FirstHitComparison(
-        compared=int(judged.sum()),
-        primitive_mismatches=int((judged & ~same_primitive.any(axis=2)).sum()),
-        ambiguous=int((judged & ~certain).sum()),
-        largest_depth_error=float(largest[0]),
-        largest_position_error=float(largest[1:4].max()),
-        largest_normal_error=float(largest[4:].max()),
-        failing=int((judged & ~agrees).sum()),
-    )
-
-
-def verdict_of_first_hits(hits: FirstHitComparison) -> tuple[Verdict, str]:
-    """Pass if every judged first hit lies in its feasible set, and at least one could be judged."""
-    if hits.compared == 0:
-        return Verdict.FAIL, "no first hit could be judged: this arithmetic leaves everything open"
-    if hits.failing:
-        return Verdict.FAIL, f"{hits.failing} of {hits.compared} first hits lie outside their feasible sets"
-    return Verdict.PASS, f"all {hits.compared} first hits lie in their feasible sets"
-
-
-def _box_distances(
+def box_distances(
     values: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Distance of values (h, w, c) from boxes (h, w, k, c) in the worst channel: (h, w, k)."""
@@ -181,7 +150,7 @@ def worst_pixel(
 ) -> WorstPixel:
     """The pixel with the largest distance in tolerances, and the box of its outcomes that is nearest."""
     y, x = np.unravel_index(int(np.argmax(distances)), distances.shape)
-    boxes = _box_distances(
+    boxes = box_distances(
         image[y : y + 1, x : x + 1].astype(np.float64),
         feasible.low[y : y + 1, x : x + 1],
         feasible.high[y : y + 1, x : x + 1],

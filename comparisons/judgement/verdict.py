@@ -9,10 +9,12 @@ import numpy as np
 
 from raytruth.comparisons.feasible_sets.feasible_set import UNUSED
 from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
-from raytruth.comparisons.judgement.exact_test import UNJUDGED, capped_in_words, judge_image, judgement_of, verdict_of
+from raytruth.comparisons.judgement.declared_pixels import as_declared
+from raytruth.comparisons.judgement.exact_test import UNJUDGED, judge_image, judgement_of
+from raytruth.comparisons.judgement.pixel_verdict import capped_in_words, declared_in_words, verdict_of
 from raytruth.comparisons.noise.light_path_means import compare_light_paths
 from raytruth.comparisons.noise.lobes import find_lobes
-from raytruth.comparisons.noise.mean_test import SIGNIFICANCE, StochasticOutcome, compare_means
+from raytruth.comparisons.noise.mean_test import SIGNIFICANCE, StochasticOutcome, compare_means, mean_p_values
 from raytruth.comparisons.noise.pixel_areas import area_means
 from raytruth.comparisons.noise.splat_bound import largest_splats
 from raytruth.comparisons.records.pixel_evidence import PixelEvidence, pixel_evidence
@@ -63,7 +65,8 @@ def judge_exact(image: Image, evidence: Evidence) -> Judged:
     """Each pixel of an image without random numbers against its feasible set."""
     feasible = evidence.feasible
     judgement, nearest = judge_image(image, evidence.truth, feasible)
-    pixels = pixel_evidence(feasible.low, feasible.high, nearest.places, feasible.merged)
+    declared = as_declared(image, evidence.truth, nearest.by_shortcut())
+    pixels = pixel_evidence(feasible.low, feasible.high, nearest.places, feasible.merged, declared)
     return Judged(judgement, None, *verdict_of(judgement), nearest.distances, pixels)
 
 
@@ -87,21 +90,38 @@ def judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
     distances = _distances(outcome)
     within_range = unjudged & (outcome.p_values >= SIGNIFICANCE).all(axis=2)
     distances = np.where(within_range[..., np.newaxis], UNJUDGED, distances)
-    judgement = judgement_of(distances.max(axis=2), rendering.image, evidence.truth, evidence.feasible)
+    by_shortcut: NDArray[np.bool_] = (
+        ~unjudged & (distances.max(axis=2) <= 1) & _is_not_due(rendering, evidence.feasible, most)
+    )
+    declared = as_declared(rendering.image, evidence.truth, by_shortcut)
+    judgement = judgement_of(distances.max(axis=2), rendering.image, evidence.truth, evidence.feasible, declared)
     one_box = np.zeros(unjudged.shape, dtype=np.int64)
-    pixels = pixel_evidence(low[:, :, np.newaxis], high[:, :, np.newaxis], one_box, evidence.feasible.merged)
-    if unjudged.all():
-        return Judged(judgement, outcome.test, *verdict_of(judgement), distances, pixels)
+    pixels = pixel_evidence(low[:, :, np.newaxis], high[:, :, np.newaxis], one_box, evidence.feasible.merged, declared)
+    without_test, reason = verdict_of(judgement)
+    if without_test == Verdict.INCOMPARABLE:
+        return Judged(judgement, outcome.test, without_test, reason, distances, pixels)
     aside = f"with {rendering.samples} samples a pixel{capped_in_words(judgement)}"
-    return Judged(judgement, outcome.test, *_verdict(outcome, aside), distances, pixels)
+    return Judged(judgement, outcome.test, *_verdict(outcome, aside, judgement), distances, pixels)
+
+
+def _is_not_due(rendering: Rendering, feasible: FeasibleSet, most: float) -> NDArray[np.bool_]:
+    """Which means cannot come from what is due at their pixel, tested each by itself; shape (height, width).
+
+    A shortcut's outcomes are no part of what is due. Bonferroni's correction counts all pixels and channels.
+    """
+    low, high = (np.clip(np.nan_to_num(end), 0.0, most) / most for end in feasible.hull(due_only=True))
+    mean = np.clip(np.asarray(rendering.image, dtype=np.float64) / most, 0.0, 1.0)
+    p_values = mean_p_values(mean, low, high, np.array(rendering.samples)) * mean.size
+    return np.asarray((p_values < SIGNIFICANCE).any(axis=2))
 
 
 def of_pixel_areas(evidence: Evidence) -> Evidence:
     """The same of the means over the pixels' areas in place of the values at their centres."""
     low, high = area_means(evidence.scene)
     merged = np.zeros(low.shape[:2], dtype=bool)
-    one_outcome = replace(evidence.feasible, low=low[:, :, np.newaxis], high=high[:, :, np.newaxis], merged=merged)
-    return replace(evidence, truth=(low + high) / 2, feasible=one_outcome)
+    low, high, due = low[:, :, np.newaxis], high[:, :, np.newaxis], np.ones((*merged.shape, 1), dtype=bool)
+    one_outcome = replace(evidence.feasible, low=low, high=high, due=due, merged=merged)
+    return replace(evidence, truth=(low + high)[:, :, 0] / 2, feasible=one_outcome)
 
 
 def judge_light_paths(rendering: Rendering, areas: Evidence) -> Judged:
@@ -112,11 +132,12 @@ def judge_light_paths(rendering: Rendering, areas: Evidence) -> Judged:
     splats = largest_splats(areas.scene)
     outcome = compare_light_paths(low[:, :, 0], high[:, :, 0], rendering.batch_means, rendering.samples, splats)
     distances = _distances(outcome)
-    judgement = judgement_of(distances.max(axis=2), rendering.image, areas.truth, areas.feasible)
+    nowhere = np.zeros(distances.shape[:2], dtype=bool)
+    judgement = judgement_of(distances.max(axis=2), rendering.image, areas.truth, areas.feasible, nowhere)
     one_box = np.zeros(distances.shape[:2], dtype=np.int64)
-    pixels = pixel_evidence(low, high, one_box, areas.feasible.merged)
+    pixels = pixel_evidence(low, high, one_box, areas.feasible.merged, nowhere)
     aside = f"with {rendering.samples} light paths"
-    return Judged(judgement, outcome.test, *_verdict(outcome, aside), distances, pixels)
+    return Judged(judgement, outcome.test, *_verdict(outcome, aside, judgement), distances, pixels)
 
 
 def _distances(outcome: StochasticOutcome) -> NDArray[np.float64]:
@@ -126,7 +147,9 @@ def _distances(outcome: StochasticOutcome) -> NDArray[np.float64]:
     return distances
 
 
-def _verdict(outcome: StochasticOutcome, aside: str) -> tuple[Verdict, str]:
+def _verdict(outcome: StochasticOutcome, aside: str, judgement: Judgement) -> tuple[Verdict, str]:
+    if outcome.passes and judgement.declared:
+        return Verdict.DECLARED, f"{declared_in_words(judgement.declared, judgement.pixels, 'pixels')}, {aside}"
     probability = f"the least likely mean has p = {outcome.test.smallest_p_value:.2g} after correction"
     verdict = Verdict.PASS if outcome.passes else Verdict.FAIL
     return verdict, f"{probability}, against a significance of {SIGNIFICANCE:g}, {aside}"

@@ -15,7 +15,8 @@ import numpy as np
 
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
-from raytruth.comparisons.judgement.exact_test import distances_in_tolerances, judge_first_hits
+from raytruth.comparisons.judgement.exact_test import distances_in_tolerances
+from raytruth.comparisons.judgement.first_hit_test import judge_first_hits
 from raytruth.comparisons.matrix.quick_suite import small
 from raytruth.comparisons.measures.public_gates import gates_that_reject
 from raytruth.comparisons.processes.time_limit import TookTooLongError, cpu_seconds

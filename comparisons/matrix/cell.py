@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from raytruth.comparisons.judgement.exact_test import judge_first_hits, largest_error, verdict_of_first_hits
+from raytruth.comparisons.judgement.exact_test import largest_error
+from raytruth.comparisons.judgement.first_hit_test import judge_first_hits, verdict_of_first_hits
 from raytruth.comparisons.judgement.verdict import judge_exact, judge_light_paths, judge_noisy, of_pixel_areas
 from raytruth.comparisons.records.image_files import write_image
 from raytruth.comparisons.records.pixel_evidence import write_pixel_evidence

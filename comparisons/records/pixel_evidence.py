@@ -1,8 +1,9 @@
 """What each pixel of a cell is held to, kept as an OpenEXR file so that a report can show it.
 
 A file holds the channels `nearest` (the place of the outcome that the value lies in or nearest to), `merged` (1 where
-there were too many outcomes to tell apart, so that one box holds several), and for each outcome, from 0, its ends in
-each colour: `outcome0.low.R`, …, `outcome0.high.B`. Unused outcomes are not numbers.
+there were too many outcomes to tell apart, so that one box holds several), `declared` (1 where the value is as
+declared, not as due), and for each outcome, from 0, its ends in each colour: `outcome0.low.R`, …, `outcome0.high.B`.
+Unused outcomes are not numbers.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-FIRST_NAMES = ("nearest", "merged")
+FIRST_NAMES = ("nearest", "merged", "declared")
 END_NAMES = tuple(f"{end}.{color}" for end in ("low", "high") for color in "RGB")
 
 
@@ -35,10 +36,16 @@ class PixelEvidence:
     """Shape (height, width): the place of the outcome that the value lies in or nearest to."""
     merged: NDArray[np.bool_]
     """Shape (height, width): whether one box holds several outcomes."""
+    declared: NDArray[np.bool_]
+    """Shape (height, width): whether only a declared shortcut explains the value, and one could see it."""
 
 
 def pixel_evidence(
-    low: NDArray[np.float64], high: NDArray[np.float64], nearest: NDArray[np.int64], merged: NDArray[np.bool_]
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    nearest: NDArray[np.int64],
+    merged: NDArray[np.bool_],
+    declared: NDArray[np.bool_],
 ) -> PixelEvidence:
     """The evidence in float32: of images in float32 exactly the same values lie in these boxes.
 
@@ -50,6 +57,7 @@ def pixel_evidence(
         np.where(largest > high, np.nextafter(largest, np.float32(-np.inf)), largest),
         nearest,
         merged,
+        declared,
     )
 
 
@@ -57,7 +65,7 @@ def write_pixel_evidence(path: Path, evidence: PixelEvidence) -> None:
     """Write the file whole or not at all. Raises ImageError if it cannot be written."""
     height, width, outcomes, _ = evidence.low.shape
     ends = np.concatenate([evidence.low, evidence.high], axis=3).reshape(height, width, -1)
-    first = np.stack([evidence.nearest, evidence.merged], axis=2).astype(np.float32)
+    first = np.stack([evidence.nearest, evidence.merged, evidence.declared], axis=2).astype(np.float32)
     write_channels(path, np.concatenate([first, ends], axis=2), _names(outcomes))
 
 
@@ -67,13 +75,14 @@ def read_pixel_evidence(path: Path) -> PixelEvidence:
     outcomes = _count(found)
     names = _names(outcomes)
     ordered = pixels[..., [found.index(name) for name in names]]
-    nearest, merged = np.nan_to_num(ordered[..., 0]), ordered[..., 1]
+    nearest, merged, declared = np.nan_to_num(ordered[..., 0]), ordered[..., 1], ordered[..., 2]
     ends = ordered[..., len(FIRST_NAMES) :].reshape(*pixels.shape[:2], outcomes, 2, 3)
     return PixelEvidence(
         low=ends[..., 0, :],
         high=ends[..., 1, :],
         nearest=np.clip(nearest, 0, outcomes - 1).astype(np.int64),
         merged=merged > 0,
+        declared=declared > 0,
     )
 
 

@@ -16,9 +16,14 @@ RESULTS_FILE = "results.json"
 
 
 class Verdict(StrEnum):
-    """What a cell can be; only `error`, and `fail` where it is not waived, make a run fail."""
+    """What a cell can be; only `error`, and `fail` where it is not waived, make a run fail.
+
+    A cell is `declared` where all its pixels are feasible, but some only by a shortcut that the renderer declares, and
+    a person could see that they are not what is due.
+    """
 
     PASS = "pass"
+    DECLARED = "declared"
     FAIL = "fail"
     INCOMPARABLE = "incomparable"
     UNAVAILABLE = "unavailable"
@@ -62,6 +67,16 @@ class WorstPixel(Record):
     """Distance from the middle of the nearest outcome in units of the tolerance: above 1 the pixel fails."""
 
 
+class DeclaredPixels(Record):
+    """Pixels that are as declared, not as due: only a shortcut explains them, and one could see it."""
+
+    count: int
+    largest_difference: float
+    """Of a channel from the truth."""
+    pixels: tuple[tuple[int, int], ...]
+    """Column and row, the farthest from the truth first; not all of them where there are very many."""
+
+
 class Judgement(Record):
     """How the pixels of an image fared."""
 
@@ -73,6 +88,8 @@ class Judgement(Record):
     """Judged pixels with more outcomes than are told apart: one box holds several."""
     ambiguous: int
     """Pixels where the renderer's arithmetic allows more than one outcome (edges, shadow boundaries)."""
+    declared: DeclaredPixels | None = None
+    """None where every feasible pixel is as due, or looks so."""
     worst: WorstPixel | None = None
 
 
@@ -91,6 +108,10 @@ class FirstHitComparison(Record):
     """The first hits of the very same rays; the largest errors are over pixels whose primitive is certain."""
 
     compared: int
+    unjudged: int = 0
+    """Pixels whose first hit the renderer's arithmetic leaves open."""
+    declared: int = 0
+    """First hits that only a declared shortcut explains."""
     primitive_mismatches: int
     ambiguous: int
     """Pixels where float32 may hit either of two primitives, or miss."""

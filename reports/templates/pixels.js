@@ -35,7 +35,7 @@ async function loadPixels(pictures, cell) {
   for (const name of ["value", "truth", "distance", "low", "high"]) {
     pixels[name] = new Float32Array(await unpacked(data[name]));
   }
-  for (const name of ["outcomes", "nearest", "merged"]) {
+  for (const name of ["outcomes", "nearest", "merged", "declared"]) {
     pixels[name] = new Uint8Array(await unpacked(data[name]));
   }
   // Boxes follow one another pixel by pixel: where each pixel's first one is.
@@ -132,6 +132,9 @@ function outcomeInWords(pixels, place, isMean) {
     const verdict = distance > 1 ? "✗ outside " : "✓ within ";
     const set = count > 1 ? `its ${count} feasible outcomes` : "its feasible interval";
     sentences.push(`${verdict}${set}, ${rough(distance)} tolerances from the middle${count > 1 ? " of the nearest" : ""}`);
+  }
+  if (pixels.declared[place]) {
+    sentences.push("◐ as declared, not as due: only a shortcut that the renderer declares explains it");
   }
   if (pixels.merged[place]) {
     sentences.push("capped: there are more outcomes than are told apart, and a box holds several");

@@ -15,6 +15,7 @@ from tests.browser.contrasts import CONTRASTS, WCAG_AA
 from tests.reports.sample_results import (
     AMBIGUOUS_PIXEL,
     CAPPED_PIXEL,
+    DECLARED_PIXEL,
     FAILING_PIXEL,
     HOSTILE,
     SIDE,
@@ -122,6 +123,15 @@ def test_a_capped_pixel_says_that_its_box_holds_several_outcomes(visit: Any) -> 
     cell = failing_cell(visit().page)
     point_at(cell, CAPPED_PIXEL)
     expect(cell.get_by_role("status")).to_contain_text("capped: there are more outcomes than are told apart")
+
+
+@pytest.mark.clause("VER-14")
+def test_a_pixel_that_is_as_declared_says_so(visit: Any) -> None:
+    cell = visit().page.locator("article.declared")
+    point_at(cell, DECLARED_PIXEL)
+    expect(cell.get_by_role("status")).to_contain_text("◐ as declared, not as due")
+    point_at(cell, PLAIN_PIXEL)
+    expect(cell.get_by_role("status")).not_to_contain_text("as declared")
 
 
 def test_a_stochastic_cell_shows_the_mean_and_the_interval_of_the_expectation(visit: Any) -> None:

@@ -90,7 +90,7 @@ def test_a_filter_hides_its_verdict_in_the_matrix_and_in_the_details(visit: Any)
         page.locator(f".chip.{verdict} input").uncheck()
         shown = page.locator("[data-verdict]").evaluate_all(VERDICTS_BY_VISIBILITY)
         assert shown == {v: v != verdict for v in WORDINGS}
-        expect(page.get_by_role("status")).to_have_text(re.compile(r"Showing \d of 10 cells"))
+        expect(page.get_by_role("status")).to_have_text(re.compile(r"Showing \d+ of 11 cells"))
         page.locator(f".chip.{verdict} input").check()
     assert page.locator("[data-verdict]").evaluate_all(VERDICTS_BY_VISIBILITY) == dict.fromkeys(WORDINGS, True)
     expect(page.get_by_role("status")).to_have_text("")
@@ -106,7 +106,7 @@ def test_a_scene_without_shown_cells_is_hidden(visit: Any) -> None:
 
 def test_without_javascript_all_is_shown_and_no_dead_control(visit: Any) -> None:
     page = visit(java_script_enabled=False).page
-    assert page.locator("article:visible").count() == 10
+    assert page.locator("article:visible").count() == 11
     assert page.locator("input:visible, button:visible").count() == 0
     page.locator("summary").last.click()
     assert "last line" in page.locator("pre.log").inner_text()

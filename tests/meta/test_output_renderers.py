@@ -11,7 +11,8 @@ import pytest
 
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
-from raytruth.comparisons.judgement.exact_test import judge_image, verdict_of
+from raytruth.comparisons.judgement.exact_test import judge_image
+from raytruth.comparisons.judgement.pixel_verdict import verdict_of
 from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT

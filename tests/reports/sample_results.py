@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from raytruth.comparisons.records.image_files import write_image
-from raytruth.comparisons.records.pixel_evidence import PixelEvidence, write_pixel_evidence
+from raytruth.comparisons.records.pixel_evidence import PixelEvidence, read_pixel_evidence, write_pixel_evidence
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,6 +22,7 @@ FAILING_PIXEL = (20, 12)
 """x, y"""
 AMBIGUOUS_PIXEL = (33, 50)
 CAPPED_PIXEL = (34, 50)
+DECLARED_PIXEL = (35, 50)
 WAIVED = {"reason": "It takes <b>air</b> for glass.", "link": "https://example.org/fault?a=1&b=2"}
 
 Names = tuple[str, str, str]
@@ -63,6 +64,7 @@ def sample_document(directory: Path) -> dict[str, Any]:
                 "incomparable",
                 "the scene has specular light paths (E S D L), which direct does not sum",
             ),
+            _declared(directory, ("whitted-1980", "povray", "trace")),
             _crashed(directory, ("whitted-1980", "mitsuba", "path")),
             _failing(directory, ("whitted-1980", "closed_form", "local"), waived=WAIVED),
             _without_image(directory, (ODD_NAME, "mitsuba", "path")),
@@ -123,6 +125,18 @@ def _failing(directory: Path, names: Names, **more: Any) -> dict[str, Any]:
     tolerances[:, :8] = -1
     more |= _evidence(directory, names, truth, render, tolerances)
     return _cell(names, "fail", "147 of 4,096 pixels lie outside their feasible sets", **more)
+
+
+def _declared(directory: Path, names: Names) -> dict[str, Any]:
+    cell = _passing(directory, names)
+    x, y = DECLARED_PIXEL
+    cell["judgement"]["declared"] = {"count": 1, "largest_difference": 0.505, "pixels": [(x, y)]}
+    path = directory / cell["images"]["feasible"]
+    evidence = read_pixel_evidence(path)
+    evidence.declared[y, x] = True
+    write_pixel_evidence(path, evidence)
+    reason = f"1 of 4096 pixels are as declared, not as due: up to 0.505 from the truth, at ({x}, {y})"
+    return {**cell, "verdict": "declared", "reason": reason}
 
 
 def _crashed(directory: Path, names: Names) -> dict[str, Any]:
@@ -198,7 +212,7 @@ def _pixel_evidence(truth: Image, tolerances: Image) -> PixelEvidence:
     low[tolerances < 0] = np.nan
     merged = np.zeros((SIDE, SIDE), dtype=bool)
     merged[CAPPED_PIXEL[1], CAPPED_PIXEL[0]] = True
-    return PixelEvidence(low, low + np.float32(4e-6), nearest, merged)
+    return PixelEvidence(low, low + np.float32(4e-6), nearest, merged, np.zeros_like(merged))
 
 
 def _folder(names: Names) -> str:

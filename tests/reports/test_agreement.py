@@ -42,7 +42,7 @@ def cell(folder: Path, renderer: str, value: float = TRUTH, *, noise: float = 0.
     write_image(folder / place / "render.exr", image)
     write_image(folder / place / "tolerances.exr", distances)
     nearest = np.zeros(SIZE, dtype=np.int64)
-    write_pixel_evidence(folder / place / "feasible.exr", PixelEvidence(low, high, nearest, nearest > 0))
+    write_pixel_evidence(folder / place / "feasible.exr", PixelEvidence(low, high, nearest, nearest > 0, nearest < 0))
     failing = int((distances > 1).any(axis=2).sum())
     box = {"low": (TRUTH - TOLERANCE,) * 3, "high": (TRUTH + TOLERANCE,) * 3}
     worst = WorstPixel(x=X, y=Y, value=(value,) * 3, truth=(TRUTH,) * 3, **box, tolerances=float(distances.max()))

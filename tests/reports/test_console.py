@@ -38,9 +38,12 @@ def widened(results: Results, copies: int) -> Results:
 @pytest.mark.parametrize("terminal", [True, False])
 def test_counts_reasons_of_failures_and_the_report_are_printed(results: Results, terminal: bool) -> None:
     text = printed(results, terminal=terminal)
-    assert "10 cells: 5 passed, 1 failed, 1 failed as waived, 1 incomparable, 1 unavailable, 1 ended in an err" in text
+    assert (
+        "11 cells: 5 passed, 1 as declared, not as due, 1 failed, 1 failed as waived, 1 incomparable, 1 unavailable"
+        in text
+    )
     assert "lie outside their" in text
-    assert "Capped pixels: 3,591 of 28,672 pixels in 7 judged cells (12.5 %): 7 in a box of several outcomes" in text
+    assert "Capped pixels: 4,104 of 32,768 pixels in 8 judged cells (12.5 %): 8 in a box of several outcomes" in text
     assert "mitsuba ended with signal 6" in text
     assert "Report: /a/place/report.html" in text
 
@@ -122,9 +125,9 @@ def test_capped_pixels_are_summed_over_all_judged_cells(results: Results, merged
     text = capped(results.model_copy(update={"cells": tuple(cells)}))
     assert text is not None
     if merged + unjudged == 0:
-        assert text == f"Capped pixels: none of 28,672 pixels in {len(judged)} judged cells."
+        assert text == f"Capped pixels: none of 32,768 pixels in {len(judged)} judged cells."
     else:
-        share = 100 * (merged + unjudged) / 28_672
-        assert text.startswith(f"Capped pixels: {merged + unjudged} of 28,672 pixels")
+        share = 100 * (merged + unjudged) / 32_768
+        assert text.startswith(f"Capped pixels: {merged + unjudged} of 32,768 pixels")
         assert f"({share:.3g} %)" in text
         assert text.endswith(f": {merged} in a box of several outcomes, {unjudged} not judged.")

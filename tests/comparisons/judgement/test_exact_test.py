@@ -13,12 +13,12 @@ from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
 from raytruth.comparisons.judgement.exact_test import (
     UNJUDGED,
     distances_in_tolerances,
-    judge_first_hits,
     judge_image,
     largest_error,
     nearest_outcomes,
-    verdict_of,
 )
+from raytruth.comparisons.judgement.first_hit_test import judge_first_hits
+from raytruth.comparisons.judgement.pixel_verdict import verdict_of
 from raytruth.comparisons.records.renderings import FirstHits
 from raytruth.comparisons.records.results import FirstHitComparison, Verdict
 from tests.comparisons.judgement.boxes import boxes, hits
@@ -113,10 +113,19 @@ def test_counts_are_of_failing_unjudged_and_ambiguous_pixels() -> None:
     assert reason.startswith("2 of 4 judged pixels")
 
 
-def test_an_image_passes_if_each_judged_pixel_is_feasible() -> None:
-    judgement, _ = judge_image(row(0.5, 9.0), truth(0.5, 0.5), boxes([(0.0, 1.0)], []))
-    reason = "all 1 judged pixels lie in their feasible sets (1 not judged)"
-    assert verdict_of(judgement) == (Verdict.PASS, reason)
+@pytest.mark.clause("VER-4")
+@pytest.mark.parametrize(("unjudged", "verdict"), [(0, "pass"), (1, "pass"), (2, "incomparable")])
+def test_an_image_passes_if_its_judged_pixels_are_feasible_and_at_most_one_in_a_hundred_is_not_judged(
+    unjudged: int, verdict: str
+) -> None:
+    feasible = boxes(*[[(0.0, 1.0)]] * (101 - unjudged), *[[]] * unjudged)
+    judgement, _ = judge_image(row(*[0.5] * 101), truth(*[0.5] * 101), feasible)
+    found, reason = verdict_of(judgement)
+    assert found == verdict
+    assert (f"{unjudged} not judged" in reason) == (unjudged == 1)
+    assert ("2 of 101 pixels cannot be judged" in reason) == (unjudged == 2)
+    failing, _ = judge_image(row(9.0, *[0.5] * 100), truth(*[0.5] * 101), feasible)
+    assert verdict_of(failing)[0] == Verdict.FAIL
 
 
 @pytest.mark.clause("VER-4")
@@ -145,11 +154,11 @@ def test_each_channel_has_its_distance_from_the_one_nearest_outcome() -> None:
     assert nearest.distances.tolist() == [[[2, 0, 2.5], [UNJUDGED] * 3]]
 
 
-def test_an_image_of_which_nothing_can_be_judged_fails() -> None:
+def test_an_image_of_which_nothing_can_be_judged_is_incomparable() -> None:
     judgement, nearest = judge_image(row(0.5, 0.5), truth(0.5, 0.5), boxes([], []))
     verdict, reason = verdict_of(judgement)
-    assert verdict == Verdict.FAIL
-    assert "no pixel could be judged" in reason
+    assert verdict == Verdict.INCOMPARABLE
+    assert reason.startswith("2 of 2 pixels cannot be judged")
     assert (nearest.distances == UNJUDGED).all()
     assert judgement.worst is not None
     assert judgement.worst.tolerances == UNJUDGED
@@ -180,10 +189,12 @@ def test_the_worst_pixel_of_several_rows_is_found_by_column_and_row() -> None:
     shaped = FeasibleSet(
         low=flat.low.reshape(2, 3, 1, 3),
         high=flat.high.reshape(2, 3, 1, 3),
+        due=flat.due.reshape(2, 3, 1),
         merged=flat.merged.reshape(2, 3),
         hit_primitives=flat.hit_primitives.reshape(2, 3, 1),
         hit_low=flat.hit_low.reshape(2, 3, 1, -1),
         hit_high=flat.hit_high.reshape(2, 3, 1, -1),
+        hit_due=flat.hit_due.reshape(2, 3, 1),
     )
     image = np.full((2, 3, 3), 0.5, dtype=np.float32)
     image[1, 2, 0] = 1.5

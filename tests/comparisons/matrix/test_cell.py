@@ -81,7 +81,9 @@ def test_a_right_image_passes_and_everything_lies_in_the_cells_folder(tmp_path: 
     assert read_image(tmp_path / cell.images.tolerances).max() <= 1
     kept = read_pixel_evidence(tmp_path / cell.images.feasible)
     exact = evidence().feasible
-    expected = pixel_evidence(exact.low, exact.high, np.zeros((4, 6), dtype=np.int64), exact.merged)
+    expected = pixel_evidence(
+        exact.low, exact.high, np.zeros((4, 6), dtype=np.int64), exact.merged, np.zeros((4, 6), bool)
+    )
     np.testing.assert_array_equal(kept.low, expected.low)
     np.testing.assert_array_equal(kept.high, expected.high)
     assert cell.images.truth == "cells/small/truth.exr"

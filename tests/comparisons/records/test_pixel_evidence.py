@@ -31,7 +31,8 @@ def sample(outcomes: int) -> PixelEvidence:
         low[place // 3, place % 3, max(outcomes - place, 0) :] = np.nan
     high[np.isnan(low)] = np.nan
     nearest = random.integers(0, outcomes, (2, 3))
-    return pixel_evidence(low, high, nearest, random.integers(0, 2, (2, 3)) > 0)
+    merged, declared = random.integers(0, 2, (2, 2, 3)) > 0
+    return pixel_evidence(low, high, nearest, merged, declared)
 
 
 # More than ten: their names are then not in the order of the alphabet, in which files keep them.
@@ -40,7 +41,7 @@ def test_what_is_written_is_read_back_exactly(outcomes: int, tmp_path: Path) -> 
     evidence = sample(outcomes)
     write_pixel_evidence(tmp_path / "feasible.exr", evidence)
     back = read_pixel_evidence(tmp_path / "feasible.exr")
-    for name in ("low", "high", "nearest", "merged"):
+    for name in ("low", "high", "nearest", "merged", "declared"):
         np.testing.assert_array_equal(getattr(back, name), getattr(evidence, name), err_msg=name)
 
 
@@ -50,7 +51,10 @@ def test_a_float32_lies_in_the_kept_interval_exactly_if_it_lies_in_the_true_one(
 ) -> None:
     high = low + width
     kept = pixel_evidence(
-        np.full((1, 1, 1, 3), low), np.full((1, 1, 1, 3), high), np.zeros((1, 1), np.int64), np.zeros((1, 1), bool)
+        np.full((1, 1, 1, 3), low),
+        np.full((1, 1, 1, 3), high),
+        np.zeros((1, 1), np.int64),
+        *np.zeros((2, 1, 1), bool),
     )
     for end in (low, high):
         value = np.float32(end)
@@ -62,7 +66,7 @@ def test_a_float32_lies_in_the_kept_interval_exactly_if_it_lies_in_the_true_one(
 
 def test_an_end_that_float32_cannot_hold_is_infinite_outward_only() -> None:
     ends = [np.full((1, 1, 1, 3), end) for end in (-1e300, 1e300)]
-    kept = pixel_evidence(ends[0], ends[1], np.zeros((1, 1), np.int64), np.zeros((1, 1), bool))
+    kept = pixel_evidence(ends[0], ends[1], np.zeros((1, 1), np.int64), *np.zeros((2, 1, 1), bool))
     largest = np.finfo(np.float32).max
     assert (kept.low == -largest).all()  # infinity itself is not in the interval
     assert (kept.high == largest).all()
@@ -76,11 +80,11 @@ def test_a_file_of_another_kind_gets_one_sentence(tmp_path: Path) -> None:
     with pytest.raises(ImageError, match="expected an OpenEXR image"):
         read_pixel_evidence(path)
     write_image(path, np.zeros((2, 3, 3), dtype=np.float32))
-    with pytest.raises(ImageError, match=r"expected the channels nearest, merged, outcome0\.low\.R"):
+    with pytest.raises(ImageError, match=r"expected the channels nearest, merged, declared, outcome0\.low\.R"):
         read_pixel_evidence(path)
 
 
-@pytest.mark.parametrize("channels", [1, 2, 7, 9])
+@pytest.mark.parametrize("channels", [1, 3, 8, 10])
 def test_channels_that_make_no_whole_outcomes_are_refused(channels: int, tmp_path: Path) -> None:
     names = [f"channel{place}" for place in range(channels)]
     write_channels(tmp_path / "feasible.exr", np.zeros((2, 3, channels), dtype=np.float32), names)
@@ -90,8 +94,13 @@ def test_channels_that_make_no_whole_outcomes_are_refused(channels: int, tmp_pat
 
 @given(st.lists(st.floats(width=32), min_size=6, max_size=6))
 def test_a_strange_place_of_the_nearest_outcome_stays_within_the_outcomes(places: list[float]) -> None:
-    names = ("nearest", "merged", *(f"outcome0.{end}.{color}" for end in ("low", "high") for color in "RGB"))
-    pixels = np.zeros((2, 3, 8), dtype=np.float32)
+    names = (
+        "nearest",
+        "merged",
+        "declared",
+        *(f"outcome0.{end}.{color}" for end in ("low", "high") for color in "RGB"),
+    )
+    pixels = np.zeros((2, 3, 9), dtype=np.float32)
     pixels[..., 0] = np.reshape(np.array(places, dtype=np.float32), (2, 3))
     with TemporaryDirectory() as folder:
         path = Path(folder) / "feasible.exr"

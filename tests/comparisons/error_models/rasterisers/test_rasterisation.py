@@ -10,7 +10,7 @@ import pytest
 
 from raytruth.comparisons.error_models.error_model import ErrorModel, Rasterisation
 from raytruth.comparisons.feasible_sets.feasible_set import UNUSED, feasible_set
-from raytruth.comparisons.judgement.exact_test import judge_first_hits
+from raytruth.comparisons.judgement.first_hit_test import judge_first_hits
 from raytruth.reference_tracer.rendering import first_hits, prepare
 from tests.comparisons.drawn_triangles import ORTHOGRAPHIC, PERSPECTIVE, drawn, triangle_scene
 

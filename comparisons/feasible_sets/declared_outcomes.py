@@ -1,0 +1,93 @@
+"""Which outcomes of a pixel are due, and which come only from a shortcut that a renderer declares."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from raytruth.comparisons.measures.visibility import differs_visibly
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from raytruth.comparisons.feasible_sets.feasible_pixel import FirstHit
+    from raytruth.comparisons.feasible_sets.pixel_outcomes import Colors, Pixel
+    from raytruth.reference_tracer.certified_image import CertifiedImage
+
+Bounds = list[tuple[float, float]]
+"""The ends of intervals, here one a colour channel."""
+DueHits = list[tuple["FirstHit", bool]]
+"""First hits, each with whether it is due."""
+
+
+@dataclass(frozen=True)
+class Outcomes:
+    """The feasible colours of one pixel as boxes, and whether each is due; none where the pixel cannot be judged."""
+
+    boxes: list[Bounds]
+    due: list[bool]
+    merged: bool
+
+
+def all_due(color: Colors | None) -> Outcomes:
+    """Outcomes that are what the pixel is due, as far as one can see."""
+    boxes = [bounds_of(box) for box in color.boxes] if color else []
+    return Outcomes(boxes, [True] * len(boxes), color is not None and color.merged)
+
+
+def may_look_different(color: Colors, pixel: Pixel, truth: CertifiedImage | None) -> bool:
+    """Whether a declared outcome may visibly differ from the truth, or none of them holds it.
+
+    Where the truth is not known, or tied, that may be so.
+    """
+    column, row = pixel
+    if truth is None or not truth.decided[row, column]:
+        return True
+    middle, radius = truth.middle[row, column], truth.radius[row, column]
+    ends = np.array([bounds_of(box) for box in color.boxes])  # shape (outcomes, 3, 2)
+    low, high = ends[..., 0], ends[..., 1]
+    holds_truth = ((low <= middle - radius) & (middle + radius <= high)).all(axis=1).any()
+    return not holds_truth or bool(differs_visibly(ends, middle[np.newaxis, :, np.newaxis]).any())
+
+
+def proven(pixel: Pixel, truth: CertifiedImage | None) -> Outcomes:
+    """The truth, which is due where the arithmetic without its shortcuts leaves everything open; none if unknown."""
+    column, row = pixel
+    if truth is None or not truth.decided[row, column]:
+        return Outcomes([], [], merged=False)
+    middle, radius = truth.middle[row, column], truth.radius[row, column]
+    low, high = middle - radius, middle + radius
+    return Outcomes([list(zip(low.tolist(), high.tolist(), strict=True))], [True], merged=False)
+
+
+def beside_what_is_due(declared: Outcomes, due: Outcomes) -> Outcomes:
+    """What is due, and behind it the declared outcomes that are not part of it; these alone if nothing is known."""
+    if not due.boxes:
+        return declared
+    others = [box for box in declared.boxes if not any(_is_in(box, other) for other in due.boxes)]
+    is_due = [True] * len(due.boxes) + [False] * len(others)
+    return Outcomes([*due.boxes, *others], is_due, due.merged or declared.merged)
+
+
+def hits_beside_what_is_due(declared: list[FirstHit] | None, due: list[FirstHit] | None) -> DueHits:
+    """First hits that are due, and behind them the declared ones of other primitives; none where nothing is known."""
+    if declared is None or due is None:
+        return []
+    primitives = {hit.primitive for hit in due}
+    return [*((hit, True) for hit in due), *((hit, False) for hit in declared if hit.primitive not in primitives)]
+
+
+def bounds_of(balls: Iterable[Any]) -> Bounds:
+    """The balls' ends, widened by float64's own rounding."""
+    bounds = []
+    for ball in balls:
+        middle, radius = float(ball.mid()), float(ball.rad())
+        widened = radius + (abs(middle) + radius) * 2.0**-52
+        bounds.append((middle - widened, middle + widened))
+    return bounds
+
+
+def _is_in(box: Bounds, other: Bounds) -> bool:
+    return all(low <= a and b <= high for (a, b), (low, high) in zip(box, other, strict=True))

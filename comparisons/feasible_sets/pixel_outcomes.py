@@ -1,0 +1,98 @@
+"""The outcomes of many pixels: quickly in plain balls, and in linked ones where these do not do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
+
+from raytruth.comparisons.feasible_sets.feasible_pixel import FirstHit, PixelEvaluator, UndecidableError, widest
+from raytruth.comparisons.feasible_sets.rounded_rays import LinkedRays, PlainRays
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.comparisons.feasible_sets.radiance_bound import RadianceBound
+    from raytruth.comparisons.feasible_sets.rounded_rays import Box
+    from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
+    from raytruth.scenes.scene import Scene
+
+# Of the image's largest value, a quarter of a step of an 8-bit picture: wider, and a test of the pixel would be weak.
+WIDE = 2.0**-10
+FLOAT32_BITS = 24
+
+Pixel = tuple[int, int]
+"""Column and row."""
+
+
+@dataclass(frozen=True)
+class Colors:
+    """The feasible colours of one pixel, and whether they were too many to tell apart."""
+
+    boxes: list[Box]
+    merged: bool
+
+
+class PixelOutcomes:
+    """Finds the outcomes of a scene's pixels under one error model."""
+
+    def __init__(
+        self, scene: Scene, error_model: ErrorModel, behaviour: Behaviour, bound: RadianceBound | None
+    ) -> None:
+        self._model, self._model_of_light = error_model, error_model.of_light()
+        # Made only where they are needed; often the error model is that of light, too.
+        self._plain = cache(lambda model: PixelEvaluator(PlainRays(scene, model, behaviour), bound, FLOAT32_BITS))
+        self._linked = cache(lambda model: PixelEvaluator(LinkedRays(scene, model, behaviour), bound, FLOAT32_BITS))
+
+    def colors_and_hits(
+        self, pixels: Sequence[Pixel], *, with_colors: bool = True, with_hits: bool = True, brightest: float = 0.0
+    ) -> tuple[list[Colors | None], list[list[FirstHit] | None]]:
+        """Of each pixel its colours and its first hits; None where nothing can be said, or what is not asked for.
+
+        All pixels are evaluated in plain balls; in linked ones those of which plain ones say nothing, or cannot tell
+        all outcomes apart, and those whose boxes are wide beside the image's brightest value, which is at least
+        `brightest`.
+        """
+        colors: list[Colors | None] = []
+        hits: list[list[FirstHit] | None] = []
+        for pixel in pixels:
+            colors.append(_colors(self._plain(self._model_of_light), pixel, may_merge=False) if with_colors else None)
+            hits.append(_first_hits(self._plain(self._model), pixel) if with_hits else None)
+        if with_colors:
+            self._sharpen(pixels, colors, brightest)
+        if with_hits:
+            for place in [place for place, hit in enumerate(hits) if hit is None]:
+                hits[place] = _first_hits(self._linked(self._model), pixels[place])
+        return colors, hits
+
+    def _sharpen(self, pixels: Sequence[Pixel], colors: list[Colors | None], brightest: float) -> None:
+        model = self._model_of_light
+        unclear = [place for place, color in enumerate(colors) if color is None]
+        for place in unclear:
+            pixel = pixels[place]
+            colors[place] = _colors(self._linked(model), pixel) or _colors(self._plain(model), pixel)
+        widest_radius = WIDE * max(brightest, brightest_of(colors))
+        wide = [place for place, color in enumerate(colors) if color and widest(color.boxes) > widest_radius]
+        for place in sorted(set(wide) - set(unclear)):
+            colors[place] = _colors(self._linked(model), pixels[place]) or colors[place]
+
+
+def brightest_of(colors: list[Colors | None]) -> float:
+    """The largest value of the image, as far as it is known."""
+    known = [box for color in colors if color for box in color.boxes]
+    return max((float(channel.mid()) for box in known for channel in box), default=0.0)
+
+
+def _colors(evaluator: PixelEvaluator, pixel: Pixel, *, may_merge: bool = True) -> Colors | None:
+    try:
+        return Colors(*evaluator.colors(*pixel, may_merge=may_merge))
+    except UndecidableError:
+        return None
+
+
+def _first_hits(evaluator: PixelEvaluator, pixel: Pixel) -> list[FirstHit] | None:
+    try:
+        return evaluator.first_hits(*pixel)
+    except UndecidableError:
+        return None
