@@ -41,11 +41,13 @@ class Evidence:
     feasible: FeasibleSet
     bound: RadianceBound | None
     """On what any ray can bring back; None where none is known, and so no random samples can be judged."""
+    shortcuts: str = ""
+    """How large the shortcuts of the error model are in this scene, in words; empty where there are none."""
 
 
-def gather_evidence(scene: Scene, truth: NDArray[np.float64], feasible: FeasibleSet) -> Evidence:
+def gather_evidence(scene: Scene, truth: NDArray[np.float64], feasible: FeasibleSet, shortcuts: str = "") -> Evidence:
     """The evidence for a truth, shape (height, width, 3), and a feasible set of the scene."""
-    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible, radiance_bound(scene))
+    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible, radiance_bound(scene), shortcuts)
 
 
 @dataclass(frozen=True)
