@@ -101,7 +101,8 @@ def feasible_set(
 
     They hold what the declared model may give, and what its arithmetic alone may give without the shortcuts that it
     declares: that is due, and holds the truth. With `truth`, the scene's certified image, the latter is found only
-    where it may look different, which is much quicker.
+    where a declared outcome may look different from the truth or none holds it, which is much quicker. Elsewhere all
+    that is declared counts as due.
     Without colours only the feasible sets of first hits are made, and no pixel has an outcome.
     Raises ValueError for a behaviour that changes what the error model changes, too.
     """

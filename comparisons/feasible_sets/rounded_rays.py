@@ -138,16 +138,22 @@ def _exact_camera(scene: Scene, error_model: ErrorModel) -> PreparedScene | None
 
 
 def store_indices(prepared: PreparedScene, bits: int | None) -> None:
-    """Put what a renderer stores for indices of refraction into the tables: rounded to so few bits, or as they are."""
+    """Put into the tables what a renderer with so few bits may take for an index of refraction; None: as all numbers.
+
+    That is anything from the index to what it is rounded to: so the feasible sets hold the truth, too, whose index is
+    not rounded.
+    """
     if bits is None:
         return
+    linked = prepared.arithmetic.functions.get("ball")
     exact = prepare(prepared.scene, FLOAT).data.numbers
     for table in (MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX):
         first = prepared.data.integers[table]
         for place in range(first, first + rows_of(prepared.data, table)):
             mantissa, exponent = math.frexp(exact[place])
             rounded = math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits)
-            prepared.data.numbers[place] = prepared.arithmetic.number(rounded)
+            both = arb(exact[place]).union(arb(rounded))
+            prepared.data.numbers[place] = linked(both) if linked else both
 
 
 class RememberedHit:

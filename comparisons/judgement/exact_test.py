@@ -99,7 +99,7 @@ def judgement_of(
 
 
 def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet) -> float:
-    """The largest absolute difference of a channel over the judged pixels: from the truth or the nearest outcome that is due."""
+    """The largest difference of a channel over the judged pixels: from the truth, or from the nearest due outcome."""
     value = np.asarray(image, dtype=np.float64)
     from_truth = np.abs(value - truth)
     middles = np.where(feasible.due[..., np.newaxis], 0.5 * (feasible.low + feasible.high), np.nan)
