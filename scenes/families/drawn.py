@@ -21,8 +21,9 @@ FARTHEST = 1e4
 def drawn(parameter: float, seed: int) -> Scene:
     """A floor of ±5 to ±1000, balls of 0.01 to 3, some slivers, one or two lamps; all lengths times the parameter.
 
-    A right renderer fails on none of them (VER-2), whatever its offsets and the formulas by which it finds points: the
-    floor is far larger than what stands on it, balls are small or large beside it, and slivers hardly wider than a ray.
+    What is seen does not depend on scale and place (TRAV-1), and nothing near may be lost of a shadow (SHAD-4), though
+    the floor is far larger than what stands on it, and slivers are hardly wider than a ray. So a right renderer fails
+    on none of them, whatever its offsets, and whatever the formulas by which it finds points.
     """
     random = Random(f"drawn {parameter} {seed}")
     away = tuple(random.choice((-1.0, 0.0, 1.0)) * random.uniform(10.0, FARTHEST) for _ in range(3))
