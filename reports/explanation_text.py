@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from raytruth.reports.wording import plural, printable
@@ -110,7 +111,8 @@ class _Writer:
             arriving = f"{factor}, {arriving}"
         yield INDENT + arriving
         if term.shadowed is None:
-            yield f"{INDENT}behind the surface (n·l <= 0): adds {self.vector(term.radiance)}"
+            where = "at this very point" if math.isnan(term.cosine) else "behind the surface (n·l <= 0)"
+            yield f"{INDENT}{where}: adds {self.vector(term.radiance)}"
         elif term.shadowed:
             blocker = f"primitive {term.occluder} (object {term.occluder_object})"
             yield f"{INDENT}in the shadow of {blocker}: adds {self.vector(term.radiance)}"

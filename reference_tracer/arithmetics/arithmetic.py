@@ -41,6 +41,8 @@ class Arithmetic:
     in_force: Callable[[], AbstractContextManager[object]] = nullcontext
     """A context at whose precision its numbers are made and computed with: balls have one precision for the whole
     process, floats have their own."""
+    guarded_divisions: bool = False
+    """A division by zero calls the function `over_zero`, for numbers that raise an error there."""
 
     def numbers(self, values: NDArray[np.float64]) -> Any:
         """One-dimensional values as numbers of this type: an array for compiled code, else a list, which is quicker."""
@@ -62,7 +64,15 @@ KERNEL_FILE = "<kernel"
 
 MATH = {name: getattr(math, name) for name in ("exp", "floor", "inf", "pi", "sqrt", "tan")}
 
-FLOAT = Arithmetic("float", float, MATH)
+
+def over_zero(dividend: float, zero: float) -> float:
+    """What IEEE 754 says, and compiled floats give: an infinity of the quotient's sign, or NaN of 0/0 and NaN/0."""
+    if dividend == 0.0 or math.isnan(dividend):
+        return math.nan
+    return math.copysign(math.inf, dividend) * math.copysign(1.0, zero)
+
+
+FLOAT = Arithmetic("float", float, {**MATH, "over_zero": over_zero}, guarded_divisions=True)
 FLOAT64 = Arithmetic("float64", np.float64, MATH, compiled=True)
 FLOAT32 = Arithmetic(
     "float32",
@@ -109,6 +119,7 @@ def make_kernel(arithmetic: Arithmetic, features: Collection[str], behaviour: Be
         entry_points=COMPILED_ENTRY_POINTS if arithmetic.compiled else ENTRY_POINTS,
         decided_comparisons=arithmetic.decided_comparisons,
         rounded_operations=arithmetic.rounded_operations,
+        guarded_divisions=arithmetic.guarded_divisions,
     )
     if arithmetic.compiled:
         number_type = np.dtype(type(arithmetic.number(0.0))).name

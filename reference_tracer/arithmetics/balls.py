@@ -97,8 +97,8 @@ def _functions(decisions: Decisions) -> dict[str, Any]:
         "max": lambda a, b: a.max(b),
         "min": lambda a, b: a.min(b),
         "pi": arb.pi(),
-        "power": _power,
-        "sqrt": _sqrt,
+        "power": power,
+        "sqrt": square_root,
         "tan": lambda x: x.tan(),
     }
 
@@ -176,14 +176,14 @@ def decided_floor(x: Any, decisions: Decisions) -> int:
     return lowest + int(decisions.next())
 
 
-def _sqrt(x: Any) -> Any:
+def square_root(x: Any) -> Any:
     """The root of the part of x that is not negative: the source takes roots only of what it decided to be so."""
     if x >= 0:
         return x.sqrt()
     return from_zero_to(x.upper().sqrt())
 
 
-def _power(base: Any, exponent: Any) -> Any:
+def power(base: Any, exponent: Any) -> Any:
     """Base ** exponent for the part of the base that is not negative; exponents are positive."""
     if base > 0:
         return base**exponent
