@@ -16,7 +16,7 @@ from raytruth.comparisons.feasible_sets.kept_feasible_sets import FEASIBLE_SET_R
 from raytruth.comparisons.kills.kill_matrix import KillCell, SceneKills, kills_on
 from raytruth.comparisons.kills.set_cover import smallest_cover
 from raytruth.comparisons.measures.public_gates import GATES
-from raytruth.comparisons.records.kill_results import RESULTS_FILE, FaultResult, KillResults, VariantResult
+from raytruth.comparisons.records.kill_results import KILLS_FILE, FaultResult, KillResults, VariantResult
 from raytruth.reference_tracer.certified_image import collect_garbage_rarely
 from raytruth.reference_tracer.storage.source_digest import source_digest
 from raytruth.reference_tracer.storage.whole_files import write_whole
@@ -85,7 +85,7 @@ def kill_results(kills: Sequence[SceneKills], seconds: float) -> KillResults:
 
 def write_kill_results(directory: Path, results: KillResults) -> None:
     """Into the directory, whole or not at all."""
-    write_whole(directory / RESULTS_FILE, results.model_dump_json(indent=1))
+    write_whole(directory / KILLS_FILE, results.model_dump_json(indent=1))
 
 
 def _kills_of(scene: Scene) -> SceneKills:

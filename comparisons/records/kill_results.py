@@ -9,7 +9,7 @@ from raytruth.comparisons.records.results import Record
 if TYPE_CHECKING:
     from pathlib import Path
 
-RESULTS_FILE = "faults.json"
+KILLS_FILE = "faults.json"
 
 
 class SubjectResult(Record):
@@ -79,4 +79,4 @@ class KillResults(Record):
 
 def read_kill_results(directory: Path) -> KillResults:
     """From a results directory. Raises OSError and ValueError."""
-    return KillResults.model_validate_json((directory / RESULTS_FILE).read_text(encoding="utf-8"))
+    return KillResults.model_validate_json((directory / KILLS_FILE).read_text(encoding="utf-8"))

@@ -10,7 +10,7 @@ import pytest
 
 from raytruth.comparisons.feasible_sets.feasible_set import UNUSED, feasible_set
 from raytruth.comparisons.judgement.exact_test import UNJUDGED
-from raytruth.comparisons.judgement.verdict import Evidence, gather_evidence
+from raytruth.comparisons.judgement.verdict import Expectation, expectation_of
 from raytruth.comparisons.matrix.cell import CELL_FILE, run_cell
 from raytruth.comparisons.noise.lobes import find_lobes
 from raytruth.comparisons.records.image_files import read_image
@@ -43,7 +43,7 @@ SKY = {"bottom": (0.2, 0.2, 0.2), "top": (0.9, 0.9, 0.9)}
 
 
 @cache
-def evidence(kind: str = "lit") -> Evidence:
+def expectation(kind: str = "lit") -> Expectation:
     kinds: dict[str, dict[str, Any]] = {
         "lit": {"lights": [lamp((1.0, 2.0, 3.0))]},
         "glass": {"materials": GLASS, "background": SKY, "max_depth": 2},
@@ -51,14 +51,14 @@ def evidence(kind: str = "lit") -> Evidence:
     }
     scene = small_scene(**SIZE, **kinds[kind])
     truth = np.asarray(render(scene, FLOAT), dtype=np.float64)
-    return gather_evidence(scene, truth, feasible_set(scene, Pretender().error_model))
+    return expectation_of(scene, truth, feasible_set(scene, Pretender().error_model))
 
 
 def cell_of(folder: Path, answer: Answer = truthful, kind: str = "lit", source: str = "small") -> Cell:
-    return judged(Pretender(answer), evidence(kind), folder, source)
+    return judged(Pretender(answer), expectation(kind), folder, source)
 
 
-def judged(renderer: Pretender, by: Evidence, folder: Path, source: str = "small") -> Cell:
+def judged(renderer: Pretender, by: Expectation, folder: Path, source: str = "small") -> Cell:
     return run_cell(place_of(by.scene, renderer, "whitted", source=source), 1, by, folder)
 
 
@@ -77,10 +77,10 @@ def test_a_right_image_passes_and_everything_lies_in_the_cells_folder(tmp_path: 
     assert files(tmp_path) == {f"{folder}/{name}" for name in names}
     assert Cell.model_validate_json((tmp_path / folder / CELL_FILE).read_text()) == cell
     assert cell.images is not None
-    np.testing.assert_array_equal(read_image(tmp_path / cell.images.render), evidence().truth.astype(np.float32))
+    np.testing.assert_array_equal(read_image(tmp_path / cell.images.render), expectation().truth.astype(np.float32))
     assert read_image(tmp_path / cell.images.tolerances).max() <= 1
     kept = read_pixel_evidence(tmp_path / cell.images.feasible)
-    exact = evidence().feasible
+    exact = expectation().feasible
     expected = pixel_evidence(
         exact.low, exact.high, np.zeros((4, 6), dtype=np.int64), exact.merged, np.zeros((4, 6), bool)
     )
@@ -154,7 +154,7 @@ def test_one_wrong_pixel_fails(tmp_path: Path) -> None:
 
 
 def test_a_value_that_is_barely_outside_is_still_outside_in_the_map(tmp_path: Path) -> None:
-    whole = evidence()
+    whole = expectation()
     size = (4, 6, 1, 3)
     feasible = replace(whole.feasible, low=np.full(size, -0.5), high=np.full(size, np.nextafter(0.5, 0)))
     barely = replace(whole, feasible=feasible)
@@ -169,7 +169,7 @@ def test_capped_pixels_are_counted_in_the_reason_and_in_the_kept_evidence(tmp_pa
     merged = np.zeros((4, 6), dtype=bool)
     merged[1, 2] = merged[3, 0] = True
     for kind, answer in {"lit": truthful, "glass": noisy(0.0, "glass")}.items():
-        whole = evidence(kind)
+        whole = expectation(kind)
         capped = replace(whole, feasible=replace(whole.feasible, merged=merged))
         cell = judged(Pretender(answer), capped, tmp_path)
         assert cell.verdict == Verdict.PASS
@@ -196,7 +196,7 @@ def test_wrong_first_hits_fail_a_right_image(tmp_path: Path) -> None:
 
 def right_first_hits() -> FirstHits:
     """The middles of the certain feasible sets."""
-    feasible = evidence().feasible
+    feasible = expectation().feasible
     primitive = feasible.hit_primitives[..., 0]
     middles = 0.5 * (feasible.hit_low + feasible.hit_high)[..., 0, :]
     depth = np.where(primitive < 0, np.inf, middles[..., 0])
@@ -205,7 +205,7 @@ def right_first_hits() -> FirstHits:
 
 def first_hits_cell(folder: Path, hits: FirstHits | None) -> Cell:
     renderer = Pretender(lambda *_: Rendering(None, 0.5, hits), integrators=FIRST_HITS_ONLY)
-    return judged(renderer, evidence(), folder)
+    return judged(renderer, expectation(), folder)
 
 
 def test_first_hits_alone_are_judged_without_an_image(tmp_path: Path) -> None:
@@ -225,7 +225,7 @@ def test_one_wrong_first_hit_fails_without_an_image(tmp_path: Path) -> None:
 
 
 def test_first_hits_of_which_none_can_be_judged_do_not_pass(tmp_path: Path) -> None:
-    whole = evidence()
+    whole = expectation()
     nothing = replace(whole.feasible, hit_primitives=np.full_like(whole.feasible.hit_primitives, UNUSED))
     renderer = Pretender(lambda *_: Rendering(None, 0.5, right_first_hits()), integrators=FIRST_HITS_ONLY)
     cell = judged(renderer, replace(whole, feasible=nothing), tmp_path)
@@ -273,8 +273,8 @@ def noisy(offset: float, kind: str) -> Answer:
     """Batches of many samples of which the mean is off by a part of the truth."""
 
     def answer(_scene: Scene, _folder: Path) -> Rendering:
-        mean = evidence(kind).truth * (1 + offset)
-        noise = np.where(find_lobes(evidence(kind).scene).sees_directly(), 0.0, 0.01)[..., np.newaxis]
+        mean = expectation(kind).truth * (1 + offset)
+        noise = np.where(find_lobes(expectation(kind).scene).sees_directly(), 0.0, 0.01)[..., np.newaxis]
         batches = np.stack([mean * (1 + sign * noise) for sign in (-1, 1) * 8]).astype(np.float32)
         return Rendering(mean.astype(np.float32), 1.0, samples=16 * 10_000, batch_means=batches)
 
@@ -290,7 +290,7 @@ def test_a_noisy_mean_is_tested_and_its_variance_kept(tmp_path: Path) -> None:
     assert right.images.variance is not None
     assert read_image(tmp_path / right.images.variance).max() > 0
     kept = read_pixel_evidence(tmp_path / right.images.feasible)
-    low, high = evidence("glass").feasible.hull()
+    low, high = expectation("glass").feasible.hull()
     assert kept.low.shape == (4, 6, 1, 3)  # one interval, in which the expectation lies
     np.testing.assert_allclose(kept.low[:, :, 0], np.maximum(low, 0), atol=1e-6)
     np.testing.assert_allclose(kept.high[:, :, 0], high, atol=1e-6)
@@ -311,7 +311,7 @@ def test_glass_in_the_dark_is_black(tmp_path: Path) -> None:
 
 
 def test_a_noisy_image_of_which_nothing_can_be_judged_fails(tmp_path: Path) -> None:
-    whole = evidence("glass")
+    whole = expectation("glass")
     nowhere = np.full_like(whole.feasible.low, np.nan)
     blind = replace(whole.feasible, low=nowhere, high=nowhere)
     unjudged = replace(whole, feasible=blind)
@@ -324,7 +324,7 @@ def test_a_noisy_image_of_which_nothing_can_be_judged_fails(tmp_path: Path) -> N
 def test_an_unjudged_pixel_of_a_noisy_image_is_held_to_the_brightest_there_can_be(
     factor: float, failing_pixels: int, tmp_path: Path
 ) -> None:
-    whole = evidence("glass")
+    whole = expectation("glass")
     low, high = whole.feasible.low.copy(), whole.feasible.high.copy()
     low[0, 0] = high[0, 0] = np.nan  # a corner that looks past the glass
     unjudged = replace(whole, feasible=replace(whole.feasible, low=low, high=high))
