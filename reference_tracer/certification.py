@@ -83,34 +83,34 @@ class Certifier:
         self.scene = scene
         self._evaluators: dict[int, _Evaluator] = {}
 
-    def pixel(self, column: int, line: int, widest: float = math.inf) -> CertifiedPixel:
+    def pixel(self, column: int, row: int, widest: float = math.inf) -> CertifiedPixel:
         """The colour through the centre of a pixel; more bits are used while its radius is above `widest`."""
         bits = FEWEST_BITS
         while bits <= MOST_BITS:
             if bits not in self._evaluators:
                 self._evaluators[bits] = _Evaluator(self.scene, bits, RaisingDecisions())
             try:
-                found = self._evaluators[bits].enclosure(column, line)
+                found = self._evaluators[bits].enclosure(column, row)
             except UndecidedComparisonError:
                 found = NOTHING_KNOWN
             if max(found.radius) <= min(widest, LARGEST_FLOAT):
                 return CertifiedPixel(found.middle, found.radius, bits)
             bits *= 2
-        return self._explored(column, line)
+        return self._explored(column, row)
 
-    def _explored(self, column: int, line: int) -> CertifiedPixel:
+    def _explored(self, column: int, row: int) -> CertifiedPixel:
         """The pixel by every way that its ties can go."""
         decisions = NotedDecisions()
         evaluator = _Evaluator(self.scene, MOST_BITS, decisions)
         try:
-            ways = every_outcome(lambda: evaluator.enclosure(column, line), decisions, MOST_OUTCOMES)
+            ways = every_outcome(lambda: evaluator.enclosure(column, row), decisions, MOST_OUTCOMES)
             outcomes = tuple(dict.fromkeys(ways))
         except TooManyOutcomesError:
             outcomes = (NOTHING_KNOWN,)
         found = _hull(outcomes)
         if decisions.sentences and max(found.radius) <= TWO_ROUNDINGS * min(max(found.middle), LARGEST_FLOAT):
             return CertifiedPixel(found.middle, found.radius, MOST_BITS)  # ties without a consequence
-        origin, direction = evaluator.primary_ray(column, line)
+        origin, direction = evaluator.primary_ray(column, row)
         known = outcomes if found != NOTHING_KNOWN else ()
         undecided = Undecided(origin, direction, known, explanation(decisions.sentences))
         return CertifiedPixel(found.middle, found.radius, MOST_BITS, undecided)
@@ -125,17 +125,17 @@ class _Evaluator:
         with self.arithmetic.in_force():
             self.frame = self.prepared.kernel.camera_frame(self.prepared.data)
 
-    def enclosure(self, column: int, line: int) -> Enclosure:
+    def enclosure(self, column: int, row: int) -> Enclosure:
         """The colour through the centre of a pixel."""
         with self.arithmetic.in_force():
-            center = (arb(column + 0.5), arb(line + 0.5))
+            center = (arb(column + 0.5), arb(row + 0.5))
             color = self.prepared.kernel.radiance_at(self.prepared.data, self.frame, *center)
             return enclosure_of(color)
 
-    def primary_ray(self, column: int, line: int) -> tuple[Color, Color]:
+    def primary_ray(self, column: int, row: int) -> tuple[Color, Color]:
         """Origin and unit direction, rounded to floats."""
         with self.arithmetic.in_force():
-            ray = self.prepared.kernel.primary_ray(self.frame, arb(column + 0.5), arb(line + 0.5))
+            ray = self.prepared.kernel.primary_ray(self.frame, arb(column + 0.5), arb(row + 0.5))
         (x, y, z), (dx, dy, dz) = ([float(part.mid()) for part in vector] for vector in ray)
         return (x, y, z), (dx, dy, dz)
 

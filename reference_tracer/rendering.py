@@ -78,8 +78,8 @@ def primary_rays(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]
     prepared = prepare(scene, FLOAT)
     frame = prepared.kernel.camera_frame(prepared.data)
     rays = [
-        [prepared.kernel.primary_ray(frame, column + 0.5, line + 0.5) for column in range(scene.camera.width)]
-        for line in range(scene.camera.height)
+        [prepared.kernel.primary_ray(frame, column + 0.5, row + 0.5) for column in range(scene.camera.width)]
+        for row in range(scene.camera.height)
     ]
     both: NDArray[np.float64] = np.array(rays)
     return both[:, :, 0], both[:, :, 1]

@@ -44,7 +44,7 @@ class RoundedRays(Protocol):
     prepared: PreparedScene
     decisions: Decisions
 
-    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+    def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
         """Origin and direction through the centre of a pixel, or any point as near to it as the error model says."""
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
@@ -73,9 +73,9 @@ class PlainRays:
             self._primary_ray = camera.kernel.primary_ray
             self._frame = camera.kernel.camera_frame(camera.data)
 
-    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+    def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
         """As the protocol says."""
-        x, y = arb(column + 0.5, self._image_radius), arb(line + 0.5, self._image_radius)
+        x, y = arb(column + 0.5, self._image_radius), arb(row + 0.5, self._image_radius)
         return self._primary_ray(self._frame, x, y)
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
@@ -104,13 +104,13 @@ class LinkedRays:
             numbers = iter(condensed([number for vector in frame for number in vector]))
             self._frame = tuple((next(numbers), next(numbers), next(numbers)) for _ in frame)
 
-    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+    def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
         """As the protocol says."""
         ball = self.prepared.arithmetic.functions["ball"]
         if self._exact_rays is not None:
-            origin, direction = self._exact_rays.primary_ray(column, line)
+            origin, direction = self._exact_rays.primary_ray(column, row)
             return tuple(map(ball, origin)), tuple(map(ball, direction))
-        x, y = (ball(arb(center + 0.5, self._image_radius)) for center in (column, line))
+        x, y = (ball(arb(center + 0.5, self._image_radius)) for center in (column, row))
         origin, direction = self.prepared.kernel.primary_ray(self._frame, x, y)
         return _condensed_ray(origin, direction)
 

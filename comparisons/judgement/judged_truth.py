@@ -25,8 +25,8 @@ def judged_truth(scene: Scene) -> NDArray[np.float64]:
     truth = image.middle.copy()
     if image.undecided:
         rounded = np.asarray(render(scene), dtype=np.float64)
-        for (column, line), reason in image.undecided.items():
-            value = rounded[line, column]
+        for (column, row), reason in image.undecided.items():
+            value = rounded[row, column]
             outcomes = [outcome.middle for outcome in reason.outcomes] or [value]
-            truth[line, column] = min(outcomes, key=lambda outcome: float(np.abs(value - outcome).max()))
+            truth[row, column] = min(outcomes, key=lambda outcome: float(np.abs(value - outcome).max()))
     return truth

@@ -130,7 +130,7 @@ def of_pixel_areas(expectation: Expectation) -> Expectation:
 
 
 def judge_light_paths(rendering: Rendering, areas: Expectation) -> ImageVerdict:
-    """Judge sums of random light paths. Each pixel holds the mean over its area: `areas` comes from `of_pixel_areas`."""
+    """Judge sums of random light paths, which give means over whole pixels: `areas` comes from `of_pixel_areas`."""
     assert rendering.image is not None
     assert rendering.batch_means is not None
     low, high = areas.feasible.low, areas.feasible.high

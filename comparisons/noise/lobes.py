@@ -77,10 +77,10 @@ def find_lobes(scene: Scene) -> Lobes:
     camera = scene.camera
     walker = _Walker(scene)
     paths = [
-        (line * camera.width + column, path)
-        for line in range(camera.height)
+        (row * camera.width + column, path)
+        for row in range(camera.height)
         for column in range(camera.width)
-        for path in walker.paths(column, line)
+        for path in walker.paths(column, row)
     ]
     return Lobes(
         shape=(camera.height, camera.width),
@@ -128,9 +128,9 @@ class _Walker:
 
         return noting
 
-    def paths(self, column: int, line: int) -> Iterator[_Path]:
+    def paths(self, column: int, row: int) -> Iterator[_Path]:
         """Those of one pixel that have ended."""
-        origin, direction = self.kernel.primary_ray(self.frame, column + 0.5, line + 0.5)
+        origin, direction = self.kernel.primary_ray(self.frame, column + 0.5, row + 0.5)
         medium = integer_of(self.data, CAMERA_MEDIUM, 0)
         waiting = [_Path((origin, direction, (1.0, 1.0, 1.0), NOTHING, medium, self.depth))]
         while waiting:
