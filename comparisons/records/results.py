@@ -40,17 +40,21 @@ class Record(BaseModel):
 class Metrics(Record):
     """Global measures of difference from the truth, for information: never the gate. None: could not be computed."""
 
-    largest_difference: float | None = None
-    mean_difference: float | None = None
+    largest_difference: float | None = Field(None, title="Largest difference")
+    mean_difference: float | None = Field(None, title="Mean difference (bias)")
     """Signed, so that a bias shows."""
-    rmse: float | None = None
-    relative_mse: float | None = None
-    psnr: float | None = None
+    rmse: float | None = Field(None, title="RMSE")
+    relative_mse: float | None = Field(None, title="Relative MSE")
+    psnr: float | None = Field(None, title="PSNR [dB]")
     """Decibels relative to the truth's largest value; None for identical images, too."""
-    ssim: float | None = None
-    flip: float | None = None
-    delta_e_2000: float | None = None
+    ssim: float | None = Field(None, title="SSIM")
+    flip: float | None = Field(None, title="FLIP")
+    delta_e_2000: float | None = Field(None, title="Largest ΔE2000")
     """Largest CIE ΔE2000 of the sRGB pictures."""
+
+    def by_title(self) -> dict[str, float | None]:
+        """Each measure by the title that it has in a report."""
+        return {str(field.title): getattr(self, name) for name, field in Metrics.model_fields.items()}
 
 
 class WorstPixel(Record):
