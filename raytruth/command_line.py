@@ -30,8 +30,8 @@ COMMANDS = {
     "run": (
         "raytruth.run_command:run",
         "Run the conformance matrix: scenes × renderers, each cell judged against the truth.",
-        "Exit status 0 if all comparable cells pass, 1 if one fails unwaived or errs, a waiver matches nothing, or a "
-        "required renderer is missing. "
+        "Exit status 0 if no comparable cell fails, 1 if one fails unwaived or errs, a waiver matches nothing, or a "
+        "required renderer is missing; with --strict also if one is as declared, not as due. "
         "Examples: `raytruth run`, `raytruth run whitted-1980 mine.json --renderer mitsuba --out results`",
     ),
     "scenes": ("raytruth.scenes_commands:app", "List, show, validate and export scenes.", ""),

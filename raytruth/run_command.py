@@ -46,6 +46,7 @@ def run(
     jobs: int | None = None,
     waivers: Path | None = None,
     fresh: Annotated[bool, Parameter(negative="")] = False,
+    strict: Annotated[bool, Parameter(negative="")] = False,
     quick: Annotated[bool, Parameter(negative="")] = False,
     as_json: AsJson = False,
 ) -> int:
@@ -72,6 +73,8 @@ def run(
         A JSON file of known failures that do not make the run fail, besides those that raytruth knows itself.
     fresh
         Render and judge every cell again. What depends on no renderer, truth and feasible sets, is still taken over.
+    strict
+        A cell that is as declared, not as due, makes the run fail, too.
     quick
         Only the quick suite: few scenes with small images, which still find every fault of the catalogue
         (`raytruth faults`).
@@ -103,7 +106,7 @@ def run(
         results = write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), cells)
         report = write_html_report(out, unless_current=True)
     _show(results, report, as_json)
-    return _status(cells, _missing(required, plan), unmatched)
+    return _status(cells, _missing(required, plan), unmatched, strict=strict)
 
 
 def _selected(names: Iterable[str]) -> dict[str, Renderer]:
@@ -171,10 +174,11 @@ def _show(results: Results, report: Path, as_json: bool) -> None:
         print_matrix(results, Console(), report)
 
 
-def _status(cells: Sequence[Cell], missing: Mapping[str, str], unmatched: Sequence[str]) -> int:
+def _status(cells: Sequence[Cell], missing: Mapping[str, str], unmatched: Sequence[str], *, strict: bool) -> int:
     for name, reason in missing.items():
         print(f"raytruth: {name} is required and {reason}", file=sys.stderr)
     for sentence in unmatched:
         print(f"raytruth: {sentence}", file=sys.stderr)
-    bad = any(cell.verdict in {Verdict.FAIL, Verdict.ERROR} and cell.waived is None for cell in cells)
+    bad_ones = {Verdict.FAIL, Verdict.ERROR} | ({Verdict.DECLARED} if strict else set())
+    bad = any(cell.verdict in bad_ones and cell.waived is None for cell in cells)
     return FAILED if bad or missing or unmatched else 0

@@ -99,10 +99,10 @@ def judgement_of(
 
 
 def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet) -> float:
-    """The largest absolute difference of a channel over the judged pixels: from the truth, or the nearest outcome."""
+    """How far a channel is off at most, over all judged pixels: from the truth, or from the nearest due outcome."""
     value = np.asarray(image, dtype=np.float64)
     from_truth = np.abs(value - truth)
-    middles = 0.5 * (feasible.low + feasible.high)
+    middles = np.where(feasible.due[..., np.newaxis], 0.5 * (feasible.low + feasible.high), np.nan)
     with np.errstate(invalid="ignore"):  # of two infinities
         from_outcomes = np.abs(value[:, :, np.newaxis] - middles)
     place = np.argmin(_filled(from_outcomes.max(axis=3)), axis=2)

@@ -43,11 +43,13 @@ class Expectation:
     feasible: FeasibleSet
     bound: RadianceBound | None
     """The largest radiance that any ray can bring back. None where none is known: random samples cannot be judged."""
+    shortcuts: str = ""
+    """How large the shortcuts of the error model are in this scene, in words; empty where there are none."""
 
 
-def expectation_of(scene: Scene, truth: NDArray[np.float64], feasible: FeasibleSet) -> Expectation:
+def expectation_of(scene: Scene, truth: NDArray[np.float64], feasible: FeasibleSet, shortcuts: str = "") -> Expectation:
     """What is expected of images of a scene, from its truth, shape (height, width, 3), and its feasible set."""
-    return Expectation(scene, truth, Rays(*primary_rays(scene)), feasible, radiance_bound(scene))
+    return Expectation(scene, truth, Rays(*primary_rays(scene)), feasible, radiance_bound(scene), shortcuts)
 
 
 @dataclass(frozen=True)

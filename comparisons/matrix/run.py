@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from raytruth.comparisons.error_models.shortcuts import shortcuts_in_words
 from raytruth.comparisons.feasible_sets.kept_feasible_sets import kept_feasible_set
 from raytruth.comparisons.judgement.judged_truth import judged_truth
 from raytruth.comparisons.judgement.verdict import expectation_of
@@ -100,5 +101,6 @@ def run_cells(planned: Sequence[PlannedCell], directory: Path) -> list[Cell]:
     scene, error_model = planned[0].place.scene, planned[0].error_model
     has_image = any(cell.place.integrator.gives != "first hits" for cell in planned)
     feasible = kept_feasible_set(scene, error_model, with_colors=has_image)
-    expectation = expectation_of(scene, judged_truth(scene), feasible)
+    shortcuts = shortcuts_in_words(error_model, scene)
+    expectation = expectation_of(scene, judged_truth(scene), feasible, shortcuts)
     return [run_cell(cell.place, cell.depth, expectation, directory) for cell in planned]

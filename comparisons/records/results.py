@@ -159,7 +159,7 @@ class Cell(Record):
     waived: Waived | None = None
     """Of a cell that fails as a waiver says; the verdict is still `fail`."""
     largest_error: float | None = None
-    """Over the judged pixels: from the truth, or from the nearest outcome where there are several."""
+    """Over the judged pixels: from the truth, or from the nearest outcome that is due where there are several."""
     seconds: float | None = None
     """Wall-clock time of the renderer alone, without its start."""
     version: str | None = None

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from raytruth.comparisons.judgement.declared_pixels import MOST_LISTED, declared_pixels
-from raytruth.comparisons.judgement.exact_test import judge_image, nearest_outcomes
+from raytruth.comparisons.judgement.exact_test import judge_image, largest_error, nearest_outcomes
 from raytruth.comparisons.judgement.first_hit_test import judge_first_hits, verdict_of_first_hits
 from raytruth.comparisons.judgement.pixel_verdict import verdict_of
 from raytruth.comparisons.records.renderings import FirstHits
@@ -97,3 +97,8 @@ def test_first_hits_that_are_not_judged_are_told(unjudged: int, verdict: str) ->
     assert (told, found.unjudged) == (verdict, unjudged)
     assert (f"{unjudged} not judged" in reason) == (unjudged == 1)
     assert ("2 of 101 first hits cannot be judged" in reason) == (unjudged == 2)
+
+
+def test_the_largest_error_of_what_is_as_declared_is_from_the_truth() -> None:
+    image, truth = grey(0.05, 0.45), grey(0.45, 0.45).astype(np.float64)
+    assert largest_error(image, truth, FEASIBLE) == pytest.approx(0.4)
