@@ -78,7 +78,7 @@ COMMANDS = {
 
 
 def make_app() -> App:
-    """All commands."""
+    """The command line's parser, with all commands."""
     app = App(
         name="raytruth",
         help=HELP,

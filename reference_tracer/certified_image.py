@@ -118,7 +118,7 @@ def collect_garbage_rarely() -> None:
 
 
 def truth_key(scene: Scene) -> str:
-    """Of all that the certified image of a scene depends on."""
+    """A digest of all that the certified image of a scene depends on: the scene, our code, and the libraries."""
     versions = (flint.__version__, flint.__FLINT_VERSION__, np.__version__)
     parts = (scene.model_dump_json(), source_digest(*TRUTH_ROOMS), *versions)
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]

@@ -16,7 +16,7 @@ Falloff = Literal["none", "inverse_square", "polynomial"]
 
 
 class Record(BaseModel):
-    """A part of an explanation."""
+    """A part of an explanation: immutable, and without keys that it does not know."""
 
     # JSON has no numbers for infinity and not-a-number: they are written as strings.
     model_config = ConfigDict(extra="forbid", frozen=True, ser_json_inf_nan="strings")

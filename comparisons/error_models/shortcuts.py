@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
-    """The same arithmetic with rays that start on the surface and shadow rays that end at the light."""
+    """The error model without its shortcuts: rays start on the surface, shadow rays end at the light."""
     return replace(error_model, ray_offset=RayOffset(), shadow_shortening=0.0, shadow_tolerance=0.0)
 
 

@@ -168,5 +168,5 @@ def _common(box: Box, possible: Box) -> Box:
 
 
 def widest(boxes: list[Box]) -> float:
-    """The largest radius of any ball."""
+    """The largest radius of any channel of any box, a half width."""
     return max(float(channel.rad()) for box in boxes for channel in box)

@@ -74,17 +74,17 @@ class PlainRays:
             self._frame = camera.kernel.camera_frame(camera.data)
 
     def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
-        """As the protocol says."""
+        """Origin and direction as balls, through the centre of a pixel or near it, as the error model says."""
         x, y = arb(column + 0.5, self._image_radius), arb(row + 0.5, self._image_radius)
         return self._primary_ray(self._frame, x, y)
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
-        """As the protocol says."""
+        """What a ray brings by itself, as balls, and the rays that go on from its end."""
         children: list[Ray] = []
         return self.prepared.kernel.trace_ray(self.prepared.data, ray, children), children
 
     def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
-        """As the protocol says."""
+        """The primitive that a primary ray meets (-1: none), and balls for distance, position and normal."""
         return first_hit(self.prepared, origin, direction)
 
 
@@ -105,7 +105,7 @@ class LinkedRays:
             self._frame = tuple((next(numbers), next(numbers), next(numbers)) for _ in frame)
 
     def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
-        """As the protocol says."""
+        """Origin and direction as linked balls, through the centre of a pixel or near it, as the error model says."""
         ball = self.prepared.arithmetic.functions["ball"]
         if self._exact_rays is not None:
             origin, direction = self._exact_rays.primary_ray(column, row)
@@ -115,7 +115,7 @@ class LinkedRays:
         return _condensed_ray(origin, direction)
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
-        """As the protocol says."""
+        """What a ray brings by itself, as balls, and the rays that go on from its end, in linked balls."""
         kernel, arithmetic = self.prepared.kernel, self.prepared.arithmetic
         origin, direction, weight, *rest = ray
         linked_weight = tuple(arithmetic.functions["ball"](channel) for channel in weight)
@@ -125,7 +125,7 @@ class LinkedRays:
         return _box(local), [(*_condensed_ray(child[0], child[1]), _box(child[2]), *child[3:]) for child in children]
 
     def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
-        """As the protocol says."""
+        """The primitive that a primary ray meets (-1: none), and balls for distance, position and normal."""
         primitive, values = first_hit(self.prepared, origin, direction)
         return primitive, tuple(enclosure(value) for value in values)
 
@@ -160,7 +160,7 @@ class RememberedHit:
         self.hit: tuple[Any, int] = (None, NOTHING)
 
     def __call__(self, data: Any, origin: Any, direction: Any, left: int) -> tuple[Any, int]:
-        """That of the last camera ray, if it is asked for again and nothing was undecided."""
+        """The nearest hit: the last camera ray's, if it is asked for again and no comparison was undecided."""
         if origin is self.ray[0] and direction is self.ray[1]:
             return self.hit
         before = self.decisions.position
@@ -171,7 +171,7 @@ class RememberedHit:
 
 
 def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
-    """What a ray meets first: its number, and seven numbers for distance, position and normal; none for nothing."""
+    """The primitive that a ray meets first, and seven numbers for distance, position and normal; (-1, ()) for none."""
     kernel, data = prepared.kernel, prepared.data
     distance, primitive = kernel.nearest_hit(data, origin, direction, NOTHING)
     if primitive == NOTHING:

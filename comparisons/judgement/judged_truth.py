@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def judged_truth(scene: Scene) -> NDArray[np.float64]:
-    """Linear RGB of shape (height, width, 3): the middles of the certified image's enclosures.
+    """The truth as images are compared with it: the middles of certified enclosures, linear RGB (height, width, 3).
 
     Where a pixel is undecided it is the outcome next to the value of the float64 image, if any outcome is known, and
     else that value.

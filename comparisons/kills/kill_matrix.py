@@ -60,13 +60,13 @@ class KillCell:
 
     @property
     def fails(self) -> bool:
-        """Whether the matrix would say `fail` or `error`."""
+        """Whether the cell counts as a kill: the matrix would say `fail` or `error`."""
         return self.margin > 1
 
 
 @dataclass(frozen=True)
 class SceneKills:
-    """All applicable subjects on one scene."""
+    """The cells of one scene for all subjects that differ from the right tracer there."""
 
     scene: str
     cells: tuple[KillCell, ...]

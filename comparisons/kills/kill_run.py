@@ -68,7 +68,7 @@ def run_kills(scenes: Sequence[Scene], directory: Path, jobs: int, *, fresh: boo
 
 
 def kill_results(kills: Sequence[SceneKills], seconds: float) -> KillResults:
-    """All scenes put together, in the order of their names."""
+    """The kill matrix from what all scenes found, in the order of the scenes' names; `seconds` is what it took."""
     ordered = sorted(kills, key=lambda scene: scene.scene)
     faults = tuple(_fault_result(name, ordered) for name in all_faults())
     killers = [set(fault.killed_by) for fault in faults if fault.killed]
@@ -84,7 +84,7 @@ def kill_results(kills: Sequence[SceneKills], seconds: float) -> KillResults:
 
 
 def write_kill_results(directory: Path, results: KillResults) -> None:
-    """Into the directory, whole or not at all."""
+    """Write the kill matrix as `faults.json` into a results directory, whole or not at all. Raises OSError."""
     write_whole(directory / KILLS_FILE, results.model_dump_json(indent=1))
 
 
@@ -141,7 +141,7 @@ def _kept_path(directory: Path, scene: Scene) -> Path:
 
 
 def kills_key(scene: Scene) -> str:
-    """Of all that the kills of a scene depend on."""
+    """A digest of all that the kills of a scene depend on: the scene, and the code in KILL_ROOMS."""
     return hashlib.sha256(f"{scene.model_dump_json()}\n{source_digest(*KILL_ROOMS)}".encode()).hexdigest()
 
 

@@ -51,7 +51,7 @@ class CellPlace:
 
     @property
     def folder(self) -> str:
-        """Relative to the results directory."""
+        """The cell's folder, as a path relative to the results directory."""
         return f"cells/{self.scene.name}/{self.renderer.name}-{self.integrator.name}"
 
     @property
@@ -79,7 +79,7 @@ def run_cell(place: CellPlace, depth: int, expectation: Expectation, directory: 
 
 
 def settled_cell(place: CellPlace, verdict: Verdict, reason: str) -> Cell:
-    """The cell of what is not rendered, or was lost."""
+    """A cell without an image: one that was not rendered, or was lost while it was; `reason` says why."""
     return Cell(**_names(place), verdict=verdict, reason=reason)
 
 

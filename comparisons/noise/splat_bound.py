@@ -41,7 +41,7 @@ GRID = 4
 
 
 def has_splat_bound(scene: Scene) -> bool:
-    """Whether all light comes from point lights by diffuse surfaces alone, and a perspective camera sees it."""
+    """Whether a light path's splat has a bound: point lights, diffuse surfaces alone, and a perspective camera."""
     dark = isinstance(scene.background, ConstantBackground) and not any(scene.background.color)
     lights = all(isinstance(light, PointLight) and light.falloff == "inverse_square" for light in scene.lights)
     surfaces = all(_is_diffuse(material) for material in used_materials(scene))

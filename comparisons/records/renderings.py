@@ -25,7 +25,7 @@ class Rays:
 
 @dataclass(frozen=True)
 class FirstHits:
-    """What the primary rays meet: shape (height, width) or (height, width, 3)."""
+    """What the primary rays meet, in arrays of shape (height, width), and (height, width, 3) for vectors."""
 
     depth: NDArray[np.float64]
     """Distance along the unit ray; infinity where nothing is hit."""
@@ -38,7 +38,10 @@ class FirstHits:
 
 @dataclass(frozen=True)
 class Rendering:
-    """What one integrator gives. A stochastic renderer gives the mean over all samples and the batch means."""
+    """What one integrator gives for a scene.
+
+    A stochastic one gives the mean over all samples, and the means of batches of them.
+    """
 
     image: Image | None
     """None, with first hits, from an integrator that gives first hits only."""

@@ -82,7 +82,7 @@ class DeclaredPixels(Record):
 
 
 class Judgement(Record):
-    """How the pixels of an image fared."""
+    """How many pixels of an image fared how, and the worst of them."""
 
     pixels: int
     failing: int
@@ -98,7 +98,7 @@ class Judgement(Record):
 
 
 class StochasticTest(Record):
-    """The test of a noisy mean against the truth."""
+    """What the test of a noisy image's means against the truth was, and what it found."""
 
     samples: int
     batches: int
@@ -109,7 +109,7 @@ class StochasticTest(Record):
 
 
 class FirstHitComparison(Record):
-    """The first hits of the very same rays; the largest errors are over pixels whose primitive is certain."""
+    """How first hits of the very same rays compare; the largest errors are over pixels whose primitive is certain."""
 
     compared: int
     unjudged: int = 0
@@ -149,7 +149,7 @@ class Waived(Record):
 
 
 class Cell(Record):
-    """One scene on one renderer."""
+    """One scene on one integrator of one renderer: its verdict, and what that rests on."""
 
     scene: str
     renderer: str
@@ -207,7 +207,7 @@ class RendererRecord(Record):
 
 
 class Results(Record):
-    """A run of the matrix."""
+    """What `results.json` holds: all cells of a run, their scenes and their renderers."""
 
     schema_version: int = SCHEMA_VERSION
     raytruth_version: str

@@ -45,11 +45,11 @@ class ReferenceTracer:
     install = "part of raytruth"
 
     def version(self) -> str:
-        """That of the package."""
+        """The version of the package raytruth."""
         return f"raytruth {version('raytruth')}"
 
     def refuses(self, scene: Scene) -> str | None:
-        """Nothing: what a scene can state, the tracer computes, unless its source has never heard of it."""
+        """Why the tracer cannot express the scene: only if a feature of scenes is unknown to its source."""
         return missing_features("raytruth's tracer", EXPRESSES, required_features(scene))
 
     def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature

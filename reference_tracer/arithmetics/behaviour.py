@@ -27,11 +27,11 @@ class Behaviour:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """All names that it gives a meaning."""
+        """All names that it gives a meaning: of functions it replaces, of helpers and of constants."""
         return (*self.functions, *(helper.__name__ for helper in self.helpers), *self.constants)
 
     def with_numbers(self, number: Function) -> Behaviour:
-        """The same for another number type: `number` makes each constant, and each number of a list, one of it."""
+        """The behaviour for another number type: `number` converts each constant, and each number of a list."""
         constants = {
             name: [number(single) for single in value] if isinstance(value, list) else number(value)
             for name, value in self.constants.items()
@@ -44,7 +44,7 @@ IDEAL = Behaviour(name="the source's own behaviour")
 
 
 def merged(*behaviours: Behaviour) -> Behaviour:
-    """All of them at once. Raises ValueError if a name is given a meaning twice."""
+    """One behaviour that has all changes of several. Raises ValueError if a name is given a meaning twice."""
     owners: dict[str, str] = {}
     for behaviour in behaviours:
         for name in behaviour.names:

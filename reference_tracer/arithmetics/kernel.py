@@ -26,7 +26,7 @@ Ray = tuple[Any, ...]
 
 
 class Kernel(Protocol):
-    """Functions of the tracer's source; each is described there."""
+    """The functions of a kernel; each is the source's function of that name, and described there."""
 
     nearest_hit: Callable[[SceneData, Triple, Triple, int], tuple[Number, int]]
     """An attribute that may be set, since what wraps it may save work (feasible_sets/rounded_rays.py)."""

@@ -32,7 +32,7 @@ PERSPECTIVE_ROUNDOFFS = 3
 
 @dataclass(frozen=True)
 class PositionErrors:
-    """Of each triangle, at any pixel that it may cover; shape (n,). Infinity for one seen too nearly edge on."""
+    """How far lit positions may be off at any pixel of a triangle, shape (n,); infinite for one nearly edge on."""
 
     bounds: Array
     """How far along each axis a fragment may be from where its ray meets the triangle that float32 makes of this."""
@@ -45,7 +45,7 @@ class PositionErrors:
 
 
 def position_errors(scene: Scene, volume: ViewVolume, snapping: float) -> PositionErrors:
-    """Bounds for all triangles of a scene, whose corners are snapped by up to so many pixels."""
+    """Bounds on lit positions for all triangles of a scene, whose corners are snapped by up to `snapping` pixels."""
     moved = movement_in_space(scene, volume)
     scale = np.array([*half_extent(scene), 1.0])
 

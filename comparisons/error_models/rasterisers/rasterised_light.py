@@ -122,7 +122,7 @@ def light_behaviour(scene: Scene, snapping: float, in_image: Any, moved: float) 
 
 
 def about_zero(radii: Any) -> list[Any]:
-    """A ball around 0 of each radius."""
+    """For each radius a ball around 0 that has it."""
     return [arb(0, float(radius)) for radius in radii]
 
 
@@ -140,7 +140,7 @@ def drawn_surface(
     distance: Scalar,  # noqa: ARG001 - the signature of the function it stands for; it is the z-buffer's
     primitive: int,
 ) -> tuple[Vector, Vector, bool]:
-    """Where the fragment is lit, with which normal turned to the viewer, and whether its front is seen."""
+    """Where a fragment is lit, its normal turned to the viewer, and whether its front is seen, as VTK has them."""
     a, b, c = corners_of(scene, primitive)
     corner = add(a, scale(space_spread, in_space[primitive]))
     start = origin
@@ -206,7 +206,7 @@ def shadowed_by_any_triangle(
     to_light: Vector,
     light_is_near: bool,
 ) -> bool:
-    """As in the truth, by its own test: nothing of this ray is drawn."""
+    """Whether a triangle hides the light, by the truth's own test: VTK draws no shadow rays, and none is rounded."""
     for triangle in range(rows_of(scene, TRIANGLE_MATERIAL)):
         if triangle != primitive:
             a, b, c = corners_of(scene, triangle)

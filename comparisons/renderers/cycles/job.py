@@ -20,7 +20,10 @@ class JobPart(BaseModel):
 
 
 class Texture(JobPart):
-    """A colour, or squares of two in the plane of two axes: `even` where the sum of both floors is."""
+    """A colour, or squares of two colours in the plane of two axes.
+
+    It is `even` where the sum of both whole numbers of squares, rounded down, is even.
+    """
 
     even: Triple
     odd: Triple | None = None
@@ -40,7 +43,7 @@ class Closure(JobPart):
 
 
 class Mesh(JobPart):
-    """Triangles that share vertices, flat."""
+    """Triangles that share vertices; each is flat, with one normal."""
 
     vertices: tuple[Triple, ...]
     faces: tuple[tuple[int, int, int], ...]
@@ -48,7 +51,7 @@ class Mesh(JobPart):
 
 
 class Ball(JobPart):
-    """A point of Cycles, which is a true sphere."""
+    """A sphere: what Cycles calls a point, and intersects as a true sphere."""
 
     center: Triple
     radius: float

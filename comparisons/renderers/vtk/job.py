@@ -17,7 +17,7 @@ Vector = tuple[float, float, float]
 
 
 class Surface(BaseModel):
-    """A material's colours, times which VTK takes light."""
+    """The colours of a material, by which VTK multiplies the light that arrives."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -29,7 +29,7 @@ class Surface(BaseModel):
 
 
 class Lamp(BaseModel):
-    """A light."""
+    """A point light or a directional one, as VTK is told of it."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -43,7 +43,7 @@ class Lamp(BaseModel):
 
 
 class Job(BaseModel):
-    """One picture of all triangles."""
+    """What one picture of all triangles needs: the camera, its size in pixels, and the lamps."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
