@@ -124,7 +124,7 @@ def _missing(required: Mapping[str, Renderer], plan: Plan) -> dict[str, str]:
 
 
 def _waivers(path: Path | None) -> tuple[Waiver, ...]:
-    """Those that raytruth knows, and those in the file."""
+    """The waivers that raytruth knows itself, and those in the file."""
     try:
         return load_waivers() + (load_waivers(path) if path is not None else ())
     except WaiverError as error:

@@ -169,7 +169,7 @@ def _certified_band(band: _Band) -> CertifiedImage:
 
 
 def _refined_band(band: _Band, image: CertifiedImage, widest: float) -> CertifiedImage:
-    """With more bits where a radius is above `widest`."""
+    """The band evaluated again, with more bits, where a radius is above `widest`."""
     certifier = Certifier(band.scene)
     for row, column in np.argwhere(_is_wide(image, widest)).tolist():
         _put(image, column, row, certifier.pixel(column, band.first + row, widest))

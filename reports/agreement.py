@@ -44,9 +44,9 @@ class Agreement:
 
     names: tuple[str, ...]
     with_truth: tuple[Comparison, ...]
-    """Of each."""
+    """How each reference agrees with the truth."""
     pairs: dict[tuple[int, int], Comparison | None]
-    """By places in `names`, the smaller first; None where one has no image."""
+    """How two references agree, by their places in `names`, the smaller first; None where one has no image."""
     sentences: tuple[str, ...]
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 PAGE_FILE = "faults.html"
 SHADES = 5
-"""Of the heat map: how many times further from passing, in steps of a factor of 100."""
+"""The number of shades of the heat map, each 100 times further from passing than the one before."""
 
 LARGEST_TOLD = 1e9
 """A margin beyond this is no more telling: where black is due the tolerance is next to nothing."""

@@ -16,7 +16,7 @@ from packaging.utils import canonicalize_name
 from raytruth.scenes.loading import load_scene
 from raytruth.scenes.schema import json_schema
 from raytruth.specification.clauses import PROMISES, SPECIFICATION, all_clauses, clauses_of
-from tests.rooms import FOLDERS, ROOT, sources
+from tests.rooms import FOLDERS, ROOMS, ROOT, sources
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.clause("PRJ-2")
 
 DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md"))]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 SCENE_FORMAT = (ROOT / "docs" / "scene-format.md").read_text(encoding="utf-8")
 
 SCHEMA = json_schema()
@@ -97,6 +98,13 @@ def test_every_link_to_a_file_leads_somewhere(path: Path) -> None:
     links = re.findall(r"\]\(([^)\s]+)\)", path.read_text(encoding="utf-8"))
     local = [link.partition("#")[0] for link in links if "://" not in link]
     assert [link for link in local if not (path.parent / link).exists()] == []
+
+
+def test_the_folders_and_rooms_of_the_readme_are_those_that_are_there_in_their_order() -> None:
+    folders, rooms = re.findall(r"\| (?:folder|room) .+\n\|[-|]+\n((?:\|.+\n)+)", README)
+    assert tuple(re.findall(r"^\| `(\w+)/`", folders, re.MULTILINE)) == (*FOLDERS[:-1], "tests", FOLDERS[-1])
+    of_comparisons = [room.removeprefix("comparisons/") for room in ROOMS if room.startswith("comparisons/")]
+    assert re.findall(r"^\| `(\w+)/`", rooms, re.MULTILINE) == of_comparisons
 
 
 def test_every_file_that_a_document_or_a_comment_names_exists() -> None:

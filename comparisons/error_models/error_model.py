@@ -17,7 +17,7 @@ class RayOffset:
     """
 
     absolute: float = 0.0
-    """In units of the scene."""
+    """A length in units of the scene."""
     relative: float = 0.0
     along: Literal["normal", "direction"] = "normal"
     minimum_distance: float = 0.0
@@ -101,7 +101,7 @@ class ErrorModel:
     image_radius: float = 0.0
     """A pixel's ray may go through any point within so many pixels of its centre, in x and in y."""
     rasterisation: Rasterisation | None = None
-    """Where triangles are drawn rather than rays traced."""
+    """How triangles are drawn; None where rays are traced."""
     output: OutputModel = field(default_factory=OutputModel)
     random_choices: str = ""
     """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""

@@ -48,7 +48,7 @@ def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
 
 
 def _largest_coordinate(scene: Scene) -> float:
-    """Of any point that a ray may leave."""
+    """The largest absolute coordinate of any point that a ray may leave."""
     reaches = [
         np.abs(shape.center) + shape.radius if isinstance(shape, Sphere) else np.abs(shape.vertices)
         for shape in scene.objects

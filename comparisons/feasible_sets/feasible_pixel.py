@@ -128,7 +128,7 @@ class PixelEvaluator:
         return local, [(*child[:2], _common(child[2], most), *child[3:]) for child in children]
 
     def _anything(self, weight: Box) -> Box:
-        """From black to the weight times the brightest radiance."""
+        """The box of all that a ray of this weight can bring: from black to the weight times the brightest radiance."""
         if self.bound is None:
             raise UndecidableError
         return self._from_black(weight, self.bound.radiance * self.excess)

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 Box = tuple[Any, Any, Any]
 """A ball for each channel."""
 Ray = tuple[Any, ...]
-"""As in reference_tracer/source/ray_tree.py: numbers of the way chosen, except the weight, which is a box."""
+"""A ray as in reference_tracer/source/ray_tree.py, in balls or linked balls; its weight is always a box."""
 
 
 class RoundedRays(Protocol):

@@ -134,7 +134,7 @@ def _names(place: CellPlace) -> dict[str, Any]:
 
 
 def _circumstances(place: CellPlace, folder: Path) -> dict[str, Any]:
-    """Of a cell that was rendered, whatever came of it."""
+    """What is told of a cell that was rendered, whatever came of it."""
     log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
     return _names(place) | {"source": place.source, "version": place.version, "log": log}
 

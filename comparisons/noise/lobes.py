@@ -129,7 +129,7 @@ class _Walker:
         return noting
 
     def paths(self, column: int, row: int) -> Iterator[_Path]:
-        """Those of one pixel that have ended."""
+        """The paths of one pixel, each followed to its end."""
         origin, direction = self.kernel.primary_ray(self.frame, column + 0.5, row + 0.5)
         medium = integer_of(self.data, CAMERA_MEDIUM, 0)
         waiting = [_Path((origin, direction, (1.0, 1.0, 1.0), NOTHING, medium, self.depth))]

@@ -21,7 +21,7 @@ class SubjectResult(Record):
     """By scene, where it differs from the right tracer: the largest distance in tolerances, up to 1 for a pass; None
     where that is infinite."""
     errors: dict[str, str]
-    """By scene: what it raised, or what is wrong with the whole image."""
+    """For each scene on which that happened: what it raised, or what is wrong with the whole image."""
     gates: tuple[str, ...]
     """The gates of public suites that reject it on any scene."""
 

@@ -101,5 +101,5 @@ def _are_right(names: tuple[str, ...]) -> bool:
 
 
 def _names(outcomes: int) -> tuple[str, ...]:
-    """In the order of the arrays; a file may have another."""
+    """The channels' names in the order of the arrays; a file may have another order."""
     return (*FIRST_NAMES, *(f"outcome{place}.{end}" for place in range(outcomes) for end in END_NAMES))

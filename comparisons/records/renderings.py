@@ -48,6 +48,6 @@ class Rendering:
     seconds: float
     first_hits: FirstHits | None = None
     samples: int = 1
-    """Of each pixel; of an integrator that follows light paths, the number of these."""
+    """How many samples each pixel has; or how many light paths the image has, where an integrator follows these."""
     batch_means: NDArray[np.float32] | None = None
     """Shape (batches, height, width, 3): means over equally many samples with independent seeds."""

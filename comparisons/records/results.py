@@ -65,7 +65,7 @@ class WorstPixel(Record):
     value: tuple[float, float, float]
     truth: tuple[float, float, float]
     low: tuple[float, float, float]
-    """Of the nearest outcome."""
+    """The ends of the nearest outcome's box, channel by channel."""
     high: tuple[float, float, float]
     tolerances: float
     """Distance from the middle of the nearest outcome in units of the tolerance: above 1 the pixel fails."""
@@ -76,7 +76,7 @@ class DeclaredPixels(Record):
 
     count: int
     largest_difference: float
-    """Of a channel from the truth."""
+    """How far the farthest channel of any of them is from the truth, linear."""
     pixels: tuple[tuple[int, int], ...]
     """Column and row, the farthest from the truth first; not all of them where there are very many."""
 
@@ -157,7 +157,7 @@ class Cell(Record):
     verdict: Verdict
     reason: str
     waived: Waived | None = None
-    """Of a cell that fails as a waiver says; the verdict is still `fail`."""
+    """The waiver that tells of this failure; the verdict is still `fail`. None where none does."""
     largest_error: float | None = None
     """Over the judged pixels: from the truth, or from the nearest outcome that is due where there are several."""
     seconds: float | None = None

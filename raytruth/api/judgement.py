@@ -35,7 +35,7 @@ class ImageJudgement:
     failing: int
     """How many lie outside their feasible sets."""
     unjudged: int
-    """Of how many the error model leaves everything open."""
+    """How many pixels there are of which the error model leaves everything open."""
     capped: int
     """How many have more outcomes than are told apart, so that one box holds several."""
     ambiguous: int

@@ -30,7 +30,7 @@ class Arithmetic:
 
     name: str
     number: Callable[[float], Any]
-    """From a Python float, exactly or rounded to the type."""
+    """Makes a number of this type from a Python float, exactly or rounded."""
     functions: Mapping[str, Any]
     """Replace what the source imports from `math` or defines itself, by name."""
     compiled: bool = False

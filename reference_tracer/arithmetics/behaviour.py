@@ -17,7 +17,7 @@ class Behaviour:
     """
 
     functions: Mapping[str, Function] = field(default_factory=dict)
-    """By the name of the function of the source that each stands in for; both have the same parameters."""
+    """Functions, each by the name of the source's function that it stands in for; both have the same parameters."""
     helpers: tuple[Function, ...] = ()
     """Further functions that those call, by names that the source does not have."""
     constants: Mapping[str, Any] = field(default_factory=dict)
@@ -40,7 +40,7 @@ class Behaviour:
 
 
 IDEAL = Behaviour(name="the source's own behaviour")
-"""As the source says."""
+"""No change: what the source says."""
 
 
 def merged(*behaviours: Behaviour) -> Behaviour:

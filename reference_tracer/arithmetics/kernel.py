@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from raytruth.reference_tracer.source.scene_data import SceneData
 
 Number = Any
-"""Of the kernel's number type."""
+"""A number of the kernel's number type."""
 Triple = tuple[Number, Number, Number]
 """A point, a direction, or a colour in linear RGB."""
 Frame = tuple[Triple, ...]

@@ -43,7 +43,7 @@ class LinkedBall:
     __slots__ = ("age", "center", "error", "is_symbol", "links", "range", "sweep")
 
     roundoff: Any = ZERO
-    """From -u to u, where u is the largest relative error of one operation."""
+    """The ball from -u to u, where u is the largest relative error of one operation."""
     about_one: Any = ONE
     """1 ± u."""
 

@@ -20,9 +20,9 @@ class DepthErrors:
     """How far depths may be off at any pixel that a triangle may cover, shape (n,); infinite for one nearly edge on."""
 
     bounds: Array
-    """On the error of the depth in the window, in units of the range from near to far."""
+    """Bounds on the error of the depth in the window, in units of the range from near to far."""
     beyond: Array
-    """On the sum of absolute values of a pixel centre's barycentric coordinates: 1, and more where it is outside."""
+    """Bounds on the sum of a pixel centre's absolute barycentric coordinates: 1, and more where it is outside."""
 
 
 def depth_errors(scene: Scene, volume: ViewVolume, snapping: float) -> DepthErrors:

@@ -79,7 +79,7 @@ def _of_weights(inverse: Array, beyond: Array) -> tuple[Array, Array]:
 def _interpolation_error(
     pieces: DrawnPieces, view: Array, inverse: Array, beyond: Array, least: Array, in_space: Array
 ) -> Array:
-    """By the interpolation of a/w, of 1/w, and the division, along the worst axis; shape (m,)."""
+    """The error by interpolating a/w and 1/w and by the division, along the worst axis; shape (m,)."""
     of_inverse = _quotient_error(pieces, inverse, beyond)
     farthest = np.abs(view).max(axis=(1, 2)) * in_space
     of_quotients = np.max([_quotient_error(pieces, view[..., axis] * inverse, beyond) for axis in range(3)], axis=0)
@@ -89,7 +89,7 @@ def _interpolation_error(
 
 
 def _quotient_error(pieces: DrawnPieces, values: Array, beyond: Array) -> Array:
-    """Of what is interpolated, and rounded before."""
+    """The error of a value that is rounded at the corners and then interpolated."""
     rounded_before: Array = QUOTIENT_ROUNDOFFS * ROUNDOFF * beyond * np.abs(values).max(axis=1)
     return pieces.plane_error(values, beyond) + rounded_before
 

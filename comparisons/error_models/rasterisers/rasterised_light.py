@@ -69,22 +69,22 @@ LEAST_COSINE = 1e-5
 """What VTK takes for the highlight's cosine where that is less (vtkOpenGLPolyDataMapper.cxx, ReplaceShaderLight)."""
 
 window_spread: Vector = (0.0, 0.0, 0.0)
-"""From a ray's direction, or of parallel rays its origin, to where rounding puts a corner in the window."""
+"""How far rounding of corners in the window may turn a ray's direction, or move the origin of a parallel ray."""
 space_spread: Vector = (0.0, 0.0, 0.0)
-"""From a corner to what float32 makes of it."""
+"""How far float32 may move a corner in space, along each axis."""
 in_window: list[Scalar] = []
-"""Of each triangle: how often the former counts."""
+"""For each triangle: how many times `window_spread` counts."""
 in_space: list[Scalar] = []
-"""Of each triangle: how often the latter counts."""
+"""For each triangle: how many times `space_spread` counts."""
 position_spread: list[Scalar] = []
-"""Of each triangle: from where a ray meets it to where it is lit, along each axis, and what a light is off besides."""
+"""For each triangle: how far from where a ray meets it it is lit, along each axis, and what a light is off besides."""
 side_spread: list[Scalar] = []
-"""Of each triangle: 0, or where snapping may turn it anything."""
+"""For each triangle: 0, or a ball that holds any number where snapping may turn it round."""
 normal_spread: Scalar = 0.0
 cosine_spread: Scalar = 0.0
 least_cosine: Scalar = 0.0
 power_spread: Scalar = 0.0
-"""For each unit of the exponent."""
+"""What the power function may be off, relatively, for each unit of the exponent."""
 exponential_spread: Scalar = 0.0
 
 

@@ -39,7 +39,7 @@ class Closure(JobPart):
     kind: Literal["diffuse", "mirror", "glass", "emission"]
     color: Texture
     index: float = 1.0
-    """Of refraction, relative to the medium outside."""
+    """The index of refraction, relative to the medium outside."""
 
 
 class Mesh(JobPart):
@@ -75,11 +75,11 @@ class Camera(JobPart):
     """Right, up and backward: unit vectors."""
     position: Triple
     tangent: float | None
-    """Of half the vertical field of view; None: rays are parallel."""
+    """The tangent of half the vertical field of view; None: rays are parallel."""
     view_height: float = 1.0
-    """Of parallel rays."""
+    """The height of what parallel rays see, in units of the scene."""
     far: float
-    """Beyond all that is seen."""
+    """The distance of a far plane beyond all that is seen."""
     width: int
     height: int
 

@@ -94,7 +94,7 @@ def camera_of(scene: Scene) -> Camera:
 
 
 def _far(scene: Scene) -> float:
-    """Beyond all objects; the farthest corner of any box around one of them is no nearer than they are."""
+    """A distance beyond all objects: no corner of a box around one of them is farther."""
     corners = [np.array(scene.camera.position)[None]]
     for shape in scene.objects:
         if isinstance(shape, Sphere):

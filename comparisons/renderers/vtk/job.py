@@ -36,7 +36,7 @@ class Lamp(BaseModel):
     position: Vector | None
     """None for parallel light."""
     direction: Vector
-    """In which parallel light travels."""
+    """The direction in which parallel light travels."""
     color: Vector
     attenuation: Vector
     """The divisor's constant, linear and quadratic coefficient."""
