@@ -79,7 +79,7 @@ def render(
 
 
 def _check_destination(path: Path) -> None:
-    """Before the work, not after it."""
+    """Raise UsageError where the file could not be written, before the work rather than after it."""
     if path.suffix.lower() not in SUFFIXES:
         raise UsageError(f"--out: expected a file that ends in {' or '.join(SUFFIXES)}, found {path.name!r}.")
     if not path.parent.is_dir():

@@ -98,19 +98,19 @@ class Certifier:
         self.scene = scene
         self._evaluators: dict[tuple[int, bool], _Evaluator] = {}
 
-    def pixel(self, column: int, line: int, widest: float = math.inf) -> CertifiedPixel:
+    def pixel(self, column: int, row: int, widest: float = math.inf) -> CertifiedPixel:
         """The colour through the centre of a pixel; more bits are used while its radius is above `widest`."""
         bits, work_left = FEWEST_BITS, MOST_WORK
         while bits <= MOST_BITS:
             try:
-                found = self._evaluator(bits).enclosure(column, line)
+                found = self._evaluator(bits).enclosure(column, row)
             except UndecidedComparisonError:
-                found, work = self._worked_out(column, line, bits, work_left)
+                found, work = self._worked_out(column, row, bits, work_left)
                 work_left -= work
             if max(found.radius) <= min(widest, LARGEST_FLOAT):
                 return CertifiedPixel(found.middle, found.radius, bits)
             bits *= 2
-        return self._explored(column, line, widest)
+        return self._explored(column, row, widest)
 
     def _evaluator(self, bits: int, *, exactly: bool = False) -> _Evaluator:
         if (bits, exactly) not in self._evaluators:
@@ -122,37 +122,37 @@ class Certifier:
         decisions = NotedDecisions()
         return decisions, _Evaluator(self.scene, MOST_BITS, decisions, exactly=True)
 
-    def _worked_out(self, column: int, line: int, bits: int, most_work: int) -> tuple[Enclosure, int]:
+    def _worked_out(self, column: int, row: int, bits: int, most_work: int) -> tuple[Enclosure, int]:
         """The pixel with its ties decided by exact values, or NOTHING_KNOWN if they cannot be; and the work of that."""
         if most_work <= 0:
             return NOTHING_KNOWN, 0
         evaluator = self._evaluator(bits, exactly=True)
         try:
-            return evaluator.enclosure(column, line, most_work), evaluator.work()
+            return evaluator.enclosure(column, row, most_work), evaluator.work()
         except UndecidedComparisonError:
             return NOTHING_KNOWN, evaluator.work()
 
-    def _explored(self, column: int, line: int, widest: float) -> CertifiedPixel:
+    def _explored(self, column: int, row: int, widest: float) -> CertifiedPixel:
         """The pixel by every way that its ties can go, but for those that exact values decide."""
         decisions, evaluator = self._exploration
         decisions.sentences.clear()
-        outcomes, obstacle = _every_enclosure(evaluator, column, line, decisions)
+        outcomes, obstacle = _every_enclosure(evaluator, column, row, decisions)
         found = NOTHING_KNOWN if obstacle else _hull(outcomes)
         if decisions.sentences and agree(found, widest):
             return CertifiedPixel(found.middle, found.radius, MOST_BITS)  # ties without a consequence
-        origin, direction = evaluator.primary_ray(column, line)
+        origin, direction = evaluator.primary_ray(column, row)
         undecided = Undecided(origin, direction, outcomes, explanation(decisions.sentences, obstacle))
         return CertifiedPixel(found.middle, found.radius, MOST_BITS, undecided)
 
 
 def _every_enclosure(
-    evaluator: _Evaluator, column: int, line: int, decisions: NotedDecisions
+    evaluator: _Evaluator, column: int, row: int, decisions: NotedDecisions
 ) -> tuple[tuple[Enclosure, ...], str]:
     """All outcomes of a pixel and an empty text, or none and what keeps them from being told."""
     outcomes: dict[Enclosure, None] = {}
 
     def follow() -> Enclosure:
-        return evaluator.enclosure(column, line, MOST_WORK_OF_A_WAY)
+        return evaluator.enclosure(column, row, MOST_WORK_OF_A_WAY)
 
     try:
         for outcome in every_outcome(follow, decisions, MOST_OUTCOMES):
@@ -184,30 +184,30 @@ class _Evaluator:
             self.prepared = prepare(scene, arithmetic)
             self.frame = self.prepared.kernel.camera_frame(self.prepared.data)
 
-    def enclosure(self, column: int, line: int, most_work: int = 0) -> Enclosure:
+    def enclosure(self, column: int, row: int, most_work: int = 0) -> Enclosure:
         """The colour through the centre of a pixel; exact values may take that much work."""
         kernel, data = self.prepared.kernel, self.prepared.data
         with ctx.workprec(self.bits):
             if self.exact:  # each pixel has roots of its own, and the camera's among them
                 self.exact.restart(most_work)
                 self.frame = kernel.camera_frame(data)
-            color = kernel.radiance_at(data, self.frame, *self._center(column, line))
+            color = kernel.radiance_at(data, self.frame, *self._center(column, row))
             return enclosure_of([self._ball(channel) for channel in color])
 
     def work(self) -> int:
         """Of exact values, for the pixel that was evaluated last."""
         return self.exact.work() if self.exact else 0
 
-    def primary_ray(self, column: int, line: int) -> tuple[Color, Color]:
+    def primary_ray(self, column: int, row: int) -> tuple[Color, Color]:
         """Origin and unit direction, rounded to floats."""
         with ctx.workprec(self.bits):
-            ray = self.prepared.kernel.primary_ray(self.frame, *self._center(column, line))
+            ray = self.prepared.kernel.primary_ray(self.frame, *self._center(column, row))
         (x, y, z), (dx, dy, dz) = ([float(self._ball(part).mid()) for part in vector] for vector in ray)
         return (x, y, z), (dx, dy, dz)
 
-    def _center(self, column: int, line: int) -> tuple[Any, Any]:
+    def _center(self, column: int, row: int) -> tuple[Any, Any]:
         number = self.prepared.arithmetic.number
-        return number(column + 0.5), number(line + 0.5)
+        return number(column + 0.5), number(row + 0.5)
 
     def _ball(self, number: Any) -> Any:
         return number.ball if self.exact else number

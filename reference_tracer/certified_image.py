@@ -50,7 +50,7 @@ TRUTH_ROOMS = (
 """What an enclosure depends on: how a scene is read, what it says, and how that is evaluated."""
 
 Pixel = tuple[int, int]
-"""Column and line."""
+"""Column and row."""
 
 
 @dataclass(frozen=True)
@@ -72,8 +72,8 @@ class CertifiedImage:
     def decided(self) -> NDArray[np.bool_]:
         """Where the value is proven; shape (rows, width)."""
         decided = np.ones(self.precision_bits.shape, dtype=bool)
-        for column, line in self.undecided:
-            decided[line, column] = False
+        for column, row in self.undecided:
+            decided[row, column] = False
         return decided
 
 
@@ -129,7 +129,7 @@ def collect_garbage_rarely() -> None:
 
 
 def truth_key(scene: Scene) -> str:
-    """Of all that the certified image of a scene depends on."""
+    """A digest of all that the certified image of a scene depends on: the scene, our code, and the libraries."""
     versions = (flint.__version__, flint.__FLINT_VERSION__, np.__version__)
     parts = (scene.model_dump_json(), source_digest(*TRUTH_ROOMS), *versions)
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
@@ -172,9 +172,9 @@ def _certified_band(band: _Band) -> CertifiedImage:
         np.empty((band.end - band.first, width), dtype=np.int64),
         {},
     )
-    for line in range(band.first, band.end):
+    for row in range(band.first, band.end):
         for column in range(width):
-            _put(image, column, line - band.first, certifier.pixel(column, line))
+            _put(image, column, row - band.first, certifier.pixel(column, row))
     _write(band, image)
     return image
 

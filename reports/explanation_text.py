@@ -27,7 +27,7 @@ HIGHLIGHTS = {"phong": "(r·v)^n", "blinn": "(n·h)^n"}
 
 
 def explanation_text(explanation: Explanation, hexadecimal: bool = False) -> str:
-    """The tree as lines of text; numbers to six digits, or exactly as hexadecimal floats."""
+    """A ray tree as lines of text; numbers to six digits, or exactly as hexadecimal floats."""
     writer = _Writer(explanation, float.hex if hexadecimal else _six_digits)
     return "\n".join(writer.lines()) + "\n"
 

@@ -71,9 +71,10 @@ class FeasibleSet:
         return counts
 
     def hull(self, *, due_only: bool = False) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The least box that holds all outcomes of each pixel; NaN where there are none; shape (height, width, 3).
+        """The least box that holds all outcomes of a pixel: low and high ends, shape (height, width, 3) each.
 
-        Or all outcomes that are due; every pixel with an outcome has one of these.
+        With `due_only`, all outcomes that are due; every pixel with an outcome has one of these. NaN where there are
+        none.
         """
         counted = self.due[..., np.newaxis] if due_only else True
         with warnings.catch_warnings():

@@ -9,7 +9,7 @@ import numpy as np
 
 from raytruth.comparisons.feasible_sets.kept_feasible_sets import kept_feasible_set
 from raytruth.comparisons.judgement.judged_truth import judged_truth
-from raytruth.comparisons.judgement.verdict import gather_evidence, judge_exact
+from raytruth.comparisons.judgement.verdict import expectation_of, judge_exact
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -35,7 +35,7 @@ class ImageJudgement:
     failing: int
     """How many lie outside their feasible sets."""
     unjudged: int
-    """Of how many the error model leaves everything open."""
+    """How many pixels there are of which the error model leaves everything open."""
     capped: int
     """How many have more outcomes than are told apart, so that one box holds several."""
     ambiguous: int
@@ -65,7 +65,7 @@ def judge(image: NDArray[np.floating[Any]], scene: Scene, error_model: ErrorMode
     """
     _check(image, scene)
     values: Any = image.astype(np.float64)  # holds every number of the narrower types
-    judged = judge_exact(values, gather_evidence(scene, judged_truth(scene), kept_feasible_set(scene, error_model)))
+    judged = judge_exact(values, expectation_of(scene, judged_truth(scene), kept_feasible_set(scene, error_model)))
     counts = judged.judgement
     assert counts.worst is not None, "an image has a pixel"
     return ImageJudgement(

@@ -30,7 +30,7 @@ class Arithmetic:
 
     name: str
     number: Callable[[float], Any]
-    """From a Python float, exactly or rounded to the type."""
+    """Makes a number of this type from a Python float, exactly or rounded."""
     functions: Mapping[str, Any]
     """Replace what the source imports from `math` or defines itself, by name."""
     compiled: bool = False
@@ -51,11 +51,11 @@ class Arithmetic:
         return [self.number(value) for value in values.tolist()]
 
     def integers(self, values: NDArray[np.int64]) -> Any:
-        """As `numbers`, for integers."""
+        """One-dimensional values as integers for kernels: an array for compiled code, else a list, which is quicker."""
         return values if self.compiled else values.tolist()
 
     def image(self, *shape: int) -> NDArray[Any]:
-        """An array of zeros for results of this number type."""
+        """An array of zeros of this shape, which holds results of this number type."""
         return np.zeros(shape, dtype=type(self.number(0.0)) if self.compiled else object)
 
 
@@ -96,7 +96,7 @@ INTERPRETED_FLOAT32 = Arithmetic(
 
 
 class Namespace:
-    """Functions as attributes, for kernels that are not compiled."""
+    """A kernel that is not compiled: its functions as attributes."""
 
     def __init__(self, names: dict[str, Any]) -> None:
         self.__dict__ = names

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 
 class Decisions:
-    """Answers to undecided comparisons: a script first, then True; all answers are recorded."""
+    """Answers to comparisons that balls leave open: those of a script first, then True; all answers are recorded."""
 
     def __init__(self) -> None:
         self.answers: list[bool] = []
         self.position = 0
 
     def follow(self, script: list[bool]) -> None:
-        """Start again, with this script."""
+        """Begin a new evaluation, whose undecided comparisons are answered by this script."""
         self.answers = list(script)
         self.position = 0
 
@@ -43,7 +43,7 @@ MARGIN_BITS = 32
 
 
 def ball_arithmetic(precision_bits: int, decisions: Decisions) -> Arithmetic:
-    """Balls with midpoints of `precision_bits` bits, where it is in force: what exact arithmetic gives."""
+    """Balls that enclose what exact arithmetic gives, with midpoints of `precision_bits` bits."""
     with ctx.workprec(precision_bits):
         functions = _functions(decisions)
     return Arithmetic(
@@ -132,7 +132,7 @@ class TooManyOutcomesError(Exception):
 
 
 def comparison_functions(decisions: Decisions) -> dict[str, Callable[[Any, Any], bool]]:
-    """The comparisons of the source; whole numbers are compared as they are."""
+    """The source's comparisons of balls, by name: what balls leave open is asked of the decisions."""
 
     def is_less(a: Any, b: Any) -> bool:
         if a < b:

@@ -171,14 +171,14 @@ def _pruned_functions(features: frozenset[str]) -> tuple[dict[str, _PrunedFuncti
 
 @cache
 def _pruned_helper(function: Function, features: frozenset[str]) -> tuple[_PrunedFunction, dict[str, float]]:
-    """As above, for a helper: many kernels have the same ones."""
+    """A helper for these features, with its literals named; kept, since many kernels have the same ones."""
     namer = _LiteralNamer({})
     pruned = _FeaturePruner(features).prune(_override(function.__name__, function))
     return _PrunedFunction(namer.visit(pruned)), namer.names
 
 
 def _bare(function: ast.FunctionDef) -> ast.FunctionDef:
-    """Without docstring and annotations, whose names the kernel does not know."""
+    """The function without docstring and annotations, whose names the kernel does not know."""
     bare: ast.FunctionDef = ast.parse(ast.unparse(function)).body[0]  # type: ignore[assignment]
     if ast.get_docstring(bare) is not None:
         bare.body = bare.body[1:]

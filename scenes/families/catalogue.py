@@ -38,7 +38,7 @@ def _both_signs(*sizes: float) -> tuple[float, ...]:
 
 
 ULP = 2.0**-52
-"""Of 1; families of ulps use their small multiples."""
+"""The unit in the last place of 1; families of ulps use small multiples of it."""
 
 FAMILIES: dict[str, Family] = {
     "drawn": Family(drawn.drawn, _powers(-4, -2, 0, 2, 4)),

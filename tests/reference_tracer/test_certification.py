@@ -70,12 +70,12 @@ def test_a_pixel_encloses_what_four_times_the_bits_say(name: str) -> None:
     with ctx.workprec(4 * FEWEST_BITS):
         prepared = prepare(scene, ball_arithmetic(4 * FEWEST_BITS, RaisingDecisions()))
         frame = prepared.kernel.camera_frame(prepared.data)
-        for column, line in ((0, 0), (3, 2), (4, 3), (6, 4)):
-            pixel = certifier.pixel(column, line)
-            color = prepared.kernel.radiance_at(prepared.data, frame, arb(column + 0.5), arb(line + 0.5))
+        for column, row in ((0, 0), (3, 2), (4, 3), (6, 4)):
+            pixel = certifier.pixel(column, row)
+            color = prepared.kernel.radiance_at(prepared.data, frame, arb(column + 0.5), arb(row + 0.5))
             assert pixel.undecided is None
             for middle, radius, channel in zip(pixel.middle, pixel.radius, color, strict=True):
-                assert abs(channel - arb(middle)) <= arb(radius), (column, line)
+                assert abs(channel - arb(middle)) <= arb(radius), (column, row)
                 assert radius <= 2.0**-52 * max(pixel.middle)
 
 
@@ -83,10 +83,10 @@ def test_a_pixel_is_near_what_floats_say() -> None:
     scene = library_scene("glass-and-mirror", 8, 6)
     certifier = Certifier(scene)
     image = render(scene, FLOAT)
-    for line in range(6):
+    for row in range(6):
         for column in range(8):
             # The float64 error model of this scene allows more; here it only has to be the same picture.
-            assert certifier.pixel(column, line).middle == pytest.approx(tuple(image[line, column]), rel=1e-9)
+            assert certifier.pixel(column, row).middle == pytest.approx(tuple(image[row, column]), rel=1e-9)
 
 
 @given(st.floats(-1e300, 1e300), st.floats(-1e300, 1e300), st.sampled_from([0.0, 1e-320, 1e-30, 0.3, 1e200]))

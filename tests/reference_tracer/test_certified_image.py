@@ -35,9 +35,9 @@ def evaluated(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, int]]:
     pixels: list[tuple[int, int]] = []
     original = Certifier.pixel
 
-    def recorded(self: Certifier, column: int, line: int, *widest: float) -> CertifiedPixel:
-        pixels.append((column, line))
-        return original(self, column, line, *widest)
+    def recorded(self: Certifier, column: int, row: int, *widest: float) -> CertifiedPixel:
+        pixels.append((column, row))
+        return original(self, column, row, *widest)
 
     monkeypatch.setattr(Certifier, "pixel", recorded)
     return pixels
@@ -69,11 +69,11 @@ def test_each_pixel_is_in_its_place() -> None:
     image = certified_image(scene())
     certifier = Certifier(scene())
     assert image.middle.shape == image.radius.shape == (HEIGHT, WIDTH, 3)
-    for line, column in np.ndindex(HEIGHT, WIDTH):
-        pixel = certifier.pixel(column, line)
-        assert tuple(image.middle[line, column]) == pixel.middle
-        assert tuple(image.radius[line, column]) == pixel.radius
-        assert image.precision_bits[line, column] == FEWEST_BITS
+    for row, column in np.ndindex(HEIGHT, WIDTH):
+        pixel = certifier.pixel(column, row)
+        assert tuple(image.middle[row, column]) == pixel.middle
+        assert tuple(image.radius[row, column]) == pixel.radius
+        assert image.precision_bits[row, column] == FEWEST_BITS
     assert image.decided.all()
 
 
@@ -107,7 +107,7 @@ def test_an_image_is_kept_and_what_is_missing_or_damaged_is_made_again(
     three.touch()
     evaluated.clear()
     assert_same(certified_image(scene()), first)
-    assert sorted({line for _, line in evaluated}) == [0, 1, 2, 3]
+    assert sorted({row for _, row in evaluated}) == [0, 1, 2, 3]
     assert sorted(path.suffix for path in one.parent.iterdir()) == [".npz"] * 3
     evaluated.clear()
     certified_image(scene(), fresh=True)
@@ -123,7 +123,7 @@ def test_an_image_that_was_interrupted_goes_on_where_it_stopped(cache: Path, eva
     assert len(list(cache.rglob("*.npz"))) == 1
     evaluated.clear()
     certified_image(scene())
-    assert sorted({line for _, line in evaluated}) == [2, 3, 4]
+    assert sorted({row for _, row in evaluated}) == [2, 3, 4]
 
 
 @pytest.mark.usefixtures("cache")

@@ -136,14 +136,14 @@ def test_some_outcome_in_balls_holds_the_floats_of_a_pixel(name: str) -> None:
     decisions = Decisions()
     prepared = prepare(scene, put_in_force(ball_arithmetic(48, decisions)))  # as above
     frame = prepared.kernel.camera_frame(prepared.data)
-    for line, column in np.ndindex(image.shape[:2]):
-        x, y = arb(column + 0.5), arb(line + 0.5)
+    for row, column in np.ndindex(image.shape[:2]):
+        x, y = arb(column + 0.5), arb(row + 0.5)
         outcomes = every_outcome(
             lambda x=x, y=y: prepared.kernel.radiance_at(prepared.data, frame, x, y), decisions, 64
         )
-        pixel = [arb(float(part)) for part in image[line, column]]
+        pixel = [arb(float(part)) for part in image[row, column]]
         held = [all(ball.contains(part) for ball, part in zip(o, pixel, strict=True)) for o in outcomes]
-        assert any(held), (column, line)
+        assert any(held), (column, row)
 
 
 def half_diffuse(scene, material, point):  # type: ignore[no-untyped-def]  # noqa: ARG001 - the signature of diffuse
