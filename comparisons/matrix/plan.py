@@ -111,7 +111,7 @@ def _step(place: CellPlace) -> Cell | PlannedCell:
         return settled_cell(place, Verdict.INCOMPARABLE, depth)
     error_model = error_model_of(place.renderer, place.version)
     assert error_model is not None, "else it is unavailable"
-    return PlannedCell(place, depth, error_model)
+    return PlannedCell(place, depth, error_model.in_scene(place.scene))
 
 
 def _finished(directory: Path, place: CellPlace) -> Cell | None:
