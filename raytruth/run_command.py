@@ -12,6 +12,7 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from raytruth.comparisons.matrix.earlier_results import damage_of
 from raytruth.comparisons.matrix.plan import Plan, plan_run
 from raytruth.comparisons.matrix.quick_suite import write_quick_suite
 from raytruth.comparisons.matrix.results_directory import only_run_in, with_metrics, write_results
@@ -21,11 +22,12 @@ from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers
 from raytruth.comparisons.renderers.protocol import why_unavailable
 from raytruth.errors import UsageError
-from raytruth.options import AsJson, open_scene
-from raytruth.output import progress
+from raytruth.options import AsJson, expect_folder, open_scene
+from raytruth.output import progress, tell
 from raytruth.reports.console import print_matrix
-from raytruth.reports.html import write_html_report
 from raytruth.scenes.library import library_names
+from raytruth.scenes.wording import printable
+from raytruth.written_report import written_report
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -80,9 +82,10 @@ def run(
     """
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
+    expect_folder(out)
     try:
-        selected = select_renderers(_split(renderer))
-        required = select_renderers(_split(require)) if require else {}
+        selected = select_renderers(_split("--renderer", renderer))
+        required = select_renderers(_split("--require", require)) if require else {}
     except UnknownRendererError as error:
         raise UsageError(str(error)) from error
     selected |= required
@@ -92,6 +95,9 @@ def run(
     sources = write_quick_suite(out) if quick else scenes or library_names()
     opened = _opened(sources)
     with only_run_in(out):
+        damage = damage_of(out)
+        if damage is not None:
+            tell(f"raytruth: {damage}")
         with progress("Looking for the renderers"):
             plan = plan_run(opened, list(selected.values()), out, fresh=fresh)
         try:
@@ -106,7 +112,7 @@ def run(
             raise
         cells, unmatched = apply_waivers(known_failures, cells, plan.versions)
         results = write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), cells)
-        report = write_html_report(out, unless_current=True)
+        report = written_report(out, unless_current=True)
     _show(results, report, as_json)
     missing = {
         name: reason
@@ -128,8 +134,12 @@ def _with_versions(selected: Mapping[str, Renderer], plan: Plan) -> list[tuple[R
     return [(renderer, plan.versions[name]) for name, renderer in selected.items()]
 
 
-def _split(names: Iterable[str]) -> list[str]:
-    return [part.strip() for name in names for part in name.split(",") if part.strip()]
+def _split(option: str, names: Sequence[str]) -> list[str]:
+    """What stands between commas. Raises UsageError where an option is given and names nothing."""
+    parts = [part.strip() for name in names for part in name.split(",") if part.strip()]
+    if names and not parts:
+        raise UsageError(f"{option}: expected the name of a renderer, found none; see raytruth renderers.")
+    return parts
 
 
 def _opened(sources: Iterable[str]) -> dict[str, Scene]:
@@ -156,12 +166,13 @@ def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:
             bar.advance(task)
             if not console.is_terminal:
                 line = f"[{done}/{total}] {cell.scene} {cell.renderer} {cell.integrator}: {cell.verdict}"
-                print(line, file=sys.stderr, flush=True)
+                tell(line)
     return cells
 
 
 def _command() -> str:
-    return shlex.join(["raytruth", *sys.argv[1:]])
+    """For the results, which are UTF-8: a name of other bytes is shown with marks."""
+    return printable(shlex.join(["raytruth", *sys.argv[1:]]))
 
 
 def _show(results: Results, report: Path, as_json: bool) -> None:
@@ -173,8 +184,8 @@ def _show(results: Results, report: Path, as_json: bool) -> None:
 
 def _status(cells: Sequence[Cell], missing: Mapping[str, str], unmatched: Sequence[str]) -> int:
     for name, reason in missing.items():
-        print(f"raytruth: {name} is required and {reason}", file=sys.stderr)
+        tell(f"raytruth: {name} is required and {reason}")
     for sentence in unmatched:
-        print(f"raytruth: {sentence}", file=sys.stderr)
+        tell(f"raytruth: {sentence}")
     bad = any(cell.verdict in {Verdict.FAIL, Verdict.ERROR} and cell.waived is None for cell in cells)
     return FAILED if bad or missing or unmatched else 0

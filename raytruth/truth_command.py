@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 import time
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict
@@ -21,7 +20,7 @@ from raytruth.comparisons.records.certified_files import write_certified_image
 from raytruth.comparisons.records.image_files import ImageError
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene, resized
-from raytruth.output import print_json
+from raytruth.output import print_json, say, tell
 from raytruth.reference_tracer.certified_image import largest_value
 from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.scenes.library import library_names
@@ -71,7 +70,7 @@ def truth(
         summary = _certify(scene, out, jobs or os.cpu_count() or 1, fresh=fresh)
         summaries.append(summary)
         if not as_json:
-            print(_sentence(summary), flush=True)
+            say(_sentence(summary))
     if as_json:
         print_json(summaries[0] if len(summaries) == 1 else {"scenes": summaries})
 
@@ -128,7 +127,7 @@ def _with_progress(scene: Scene, jobs: int, *, fresh: bool) -> CertifiedImage:
     with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
         task = bar.add_task(what, total=None)
         if not console.is_terminal:
-            print(f"{what} …", file=sys.stderr, flush=True)
+            tell(f"{what} …")
         return images.truth(
             scene, jobs=jobs, fresh=fresh, progress=lambda done, total: bar.update(task, completed=done, total=total)
         )

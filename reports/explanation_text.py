@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from raytruth.reports.wording import plural, printable
+from raytruth.reports.wording import plural
+from raytruth.scenes.wording import printable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -87,7 +87,10 @@ class Rasterisation:
 
 @dataclass(frozen=True)
 class ErrorModel:
-    """How a renderer's result may differ from the truth by its arithmetic alone; the same for all scenes but for `largest_extent`."""
+    """How a renderer's result may differ from the truth by its arithmetic alone; the same for all scenes.
+
+    But for what `largest_extent` says of large ones.
+    """
 
     description: str
     precision_bits: int

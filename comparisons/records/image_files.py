@@ -20,6 +20,10 @@ CHANNEL_NAMES = {1: ("Y",), 3: ("R", "G", "B")}
 """What OpenEXR calls the channels of a grey and of a colour image (Technical Introduction to OpenEXR, 2006)."""
 
 
+NO_DATE = "1970:01:01 00:00:00"
+"""In every file, instead of when it was written: so the same pixels are the same bytes."""
+
+
 class ImageError(Exception):
     """A file that is not an image we can use, or cannot be written; the message is one sentence."""
 
@@ -44,6 +48,7 @@ def write_channels(path: Path, image: NDArray[np.float32], names: Sequence[str])
     height, width, channels = image.shape
     spec = OpenImageIO.ImageSpec(width, height, channels, "float")
     spec.channelnames = tuple(names)
+    spec.attribute("DateTime", NO_DATE)
     try:
         with unfinished_file(path) as file:
             buffer = OpenImageIO.ImageBuf(spec)
@@ -82,6 +87,8 @@ def read_channels(
         names = _names_in_header(path, source)
         if not are_right(names):
             raise ImageError(f"{path}: expected {expected}, found {len(names)}: {', '.join(names)}")
+        if source.seek_subimage(1, 0):
+            raise ImageError(f"{path}: expected an image of one part, found several; write each to its own file")
         pixels = source.read_image("float")
         if pixels is None or source.has_error:
             raise ImageError(f"{path}: the image is damaged ({_text(source.geterror)})")
@@ -97,6 +104,10 @@ def _names_in_header(path: Path, source: OpenImageIO.ImageInput) -> tuple[str, .
     if source.format_name() != "openexr":
         raise ImageError(f"{path}: expected an OpenEXR image with linear values, found {source.format_name()}")
     spec = source.spec()
+    kinds = {str(kind) for kind in (spec.format, *spec.channelformats)}
+    if spec.deep or not kinds <= {"half", "float"}:
+        found = "deep pixels" if spec.deep else " and ".join(sorted(kinds))
+        raise ImageError(f"{path}: expected pixels in half or float, found {found}")
     if max(spec.width, spec.height) > LARGEST_SIDE:
         raise ImageError(f"{path}: {spec.width}x{spec.height} pixels, expected at most {LARGEST_SIDE} a side")
     display = (spec.full_x, spec.full_y, spec.full_width, spec.full_height)
