@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 from cyclopts import App, CycloptsError
 
 from raytruth.errors import UsageError
-from raytruth.scenes.wording import printable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -103,7 +102,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return _status_of(tokens)
     except Exception as error:
-        from raytruth.unforeseen import sentence_and_log  # noqa: PLC0415 - needed almost never, and `--help` is quick
+        from raytruth.unforeseen import sentence_and_log  # noqa: PLC0415 - so that `--help` is quick
 
         _tell(sentence_and_log(error, tokens))
         return UNFORESEEN
@@ -157,6 +156,8 @@ def _bad_usage(sentence: str) -> int:
 
 def _tell(sentence: str) -> None:
     """Names of files may hold control characters, which are shown as marks."""
+    from raytruth.reports.wording import printable  # noqa: PLC0415 - so that `--help` is quick
+
     print(printable(f"raytruth: {sentence}"), file=sys.stderr)
 
 

@@ -35,6 +35,10 @@ def expect_folder(out: Path) -> None:
     """Before any work. Raises UsageError where there is something else than a folder."""
     if out.exists() and not out.is_dir():
         raise UsageError(f"--out: expected a folder, but {out} is a file.")
+    try:
+        str(out).encode()
+    except UnicodeEncodeError as error:
+        raise UsageError(f"--out: expected a folder whose name is UTF-8, found {str(out)!a}.") from error
 
 
 def parse_pixel(text: str) -> tuple[int, int]:

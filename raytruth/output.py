@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from raytruth.scenes.wording import printable
+from raytruth.reports.wording import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

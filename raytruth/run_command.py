@@ -25,8 +25,8 @@ from raytruth.errors import UsageError
 from raytruth.options import AsJson, expect_folder, open_scene
 from raytruth.output import progress, tell
 from raytruth.reports.console import print_matrix
+from raytruth.reports.wording import printable
 from raytruth.scenes.library import library_names
-from raytruth.scenes.wording import printable
 from raytruth.written_report import written_report
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from raytruth.api import images
 from raytruth.comparisons.records.certified_files import write_certified_image
 from raytruth.comparisons.records.image_files import ImageError
 from raytruth.errors import UsageError
-from raytruth.options import AsJson, open_scene, resized
+from raytruth.options import AsJson, expect_folder, open_scene, resized
 from raytruth.output import print_json, say, tell
 from raytruth.reference_tracer.certified_image import largest_value
 from raytruth.reference_tracer.storage.whole_files import write_whole
@@ -64,6 +64,7 @@ def truth(
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
     opened = [resized(open_scene(source), size) for source in scenes or library_names()]
     _check_names(opened)
+    expect_folder(out)
     _make_folder(out)
     summaries = []
     for scene in opened:
@@ -84,10 +85,7 @@ def _check_names(opened: list[Scene]) -> None:
 
 
 def _make_folder(out: Path) -> None:
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except FileExistsError as error:
-        raise UsageError(f"--out: expected a folder, but {out} is a file.") from error
+    out.mkdir(parents=True, exist_ok=True)
     if not os.access(out, os.W_OK):
         raise UsageError(f"--out: the folder {out} cannot be written to.")
 

@@ -19,9 +19,9 @@ from raytruth.reports.wording import (
     number,
     outcome,
     outcome_counts,
+    printable,
     summary,
 )
-from raytruth.scenes.wording import printable
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from raytruth.reports.wording import plural
-from raytruth.scenes.wording import printable
+from raytruth.reports.wording import plural, printable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

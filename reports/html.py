@@ -24,7 +24,6 @@ from raytruth.reports.kills import PAGE_FILE
 from raytruth.reports.loading import ReportError, load_results, read_log
 from raytruth.reports.made_from import is_made_from, made_from
 from raytruth.reports.pixel_scripts import FOLDER, PixelView, write_pixel_script
-from raytruth.scenes.wording import printable
 
 if TYPE_CHECKING:
     from raytruth.comparisons.records.results import Cell, Results, SceneRecord
@@ -101,7 +100,7 @@ def _render_page(directory: Path, results: Results, pixels: Path, source: str) -
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
-        finalize=lambda value: printable(value) if type(value) is str else value,
+        finalize=lambda value: wording.printable(value) if type(value) is str else value,
     )
     environment.filters["number"] = wording.number
     environment.filters["exact"] = wording.exact

@@ -9,7 +9,7 @@ from rich.text import Text
 
 from raytruth.comparisons.records.kill_results import read_kill_results
 from raytruth.reference_tracer.storage.whole_files import write_whole
-from raytruth.scenes.wording import printable
+from raytruth.reports import wording
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -68,7 +68,7 @@ def print_kills(results: KillResults, console: Console, page: Path | None = None
 
 def _line(console: Console, text: str) -> None:
     """Never wrapped, so that it can be searched and copied."""
-    console.print(Text(printable(text)), soft_wrap=True)
+    console.print(Text(wording.printable(text)), soft_wrap=True)
 
 
 def _state(fault: FaultResult) -> str:
@@ -107,7 +107,7 @@ def write_kill_report(directory: Path) -> Path:
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
-        finalize=lambda value: printable(value) if type(value) is str else value,
+        finalize=lambda value: wording.printable(value) if type(value) is str else value,
     )
     environment.filters["margin"] = margin
     environment.filters["shade"] = shade

@@ -130,6 +130,11 @@ def exact(value: float) -> str:
     return f"{value:.9g}" if math.isfinite(value) else number(value)
 
 
+def printable(text: str) -> str:
+    """The text with every control character, of a terminal or of the writing direction, replaced by a visible mark."""
+    return "".join(character if character.isprintable() or character in "\n\t" else "�" for character in text)
+
+
 def listed(names: Sequence[str]) -> str:
     """`a`, `a and b`, `a, b and c`."""
     return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names)

@@ -14,11 +14,6 @@ if TYPE_CHECKING:
 LONGEST_QUOTE = 40
 
 
-def printable(text: str) -> str:
-    """The text with every control character, of a terminal or of the writing direction, replaced by a visible mark."""
-    return "".join(character if character.isprintable() or character in "\n\t" else "�" for character in text)
-
-
 def quoted(text: str) -> str:
     """The text in quotes, shortened, with control characters and lone surrogates escaped."""
     shown = text if len(text) <= LONGEST_QUOTE else text[:LONGEST_QUOTE] + "…"

@@ -53,7 +53,7 @@ def write_channels(path: Path, image: NDArray[np.float32], names: Sequence[str])
         with unfinished_file(path) as file:
             buffer = OpenImageIO.ImageBuf(spec)
             buffer.set_pixels(OpenImageIO.ROI.All, image)
-            if not buffer.write(str(file)):
+            if not buffer.write(_name_of(file)):
                 raise ImageError(f"{path}: the image could not be written ({_text(buffer.geterror)})")
     except OSError as error:
         raise ImageError(f"{path}: the image could not be written ({error.strerror})") from error
@@ -80,7 +80,7 @@ def read_channels(
     """
     if not path.is_file():
         raise ImageError(f"{path}: there is no such image file")
-    source = OpenImageIO.ImageInput.open(str(path))
+    source = OpenImageIO.ImageInput.open(_name_of(path))
     if source is None:
         raise ImageError(f"{path}: expected an OpenEXR image, but it cannot be opened ({_text(OpenImageIO.geterror)})")
     try:
@@ -97,6 +97,15 @@ def read_channels(
     finally:
         source.close()
     return np.asarray(pixels, dtype=np.float32), names
+
+
+def _name_of(path: Path) -> str:
+    """For OpenImageIO, which takes text only."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError as error:
+        raise ImageError(f"{path}: expected a file name in UTF-8; rename it") from error
+    return str(path)
 
 
 def _names_in_header(path: Path, source: OpenImageIO.ImageInput) -> tuple[str, ...]:

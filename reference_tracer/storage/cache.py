@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING
 from platformdirs import user_cache_path
 
 from raytruth.reference_tracer.storage.whole_files import unfinished_file
-from raytruth.scenes.wording import printable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -72,5 +71,6 @@ def _told(reason: str) -> None:
 
 
 def _tell(folder: Path, error: OSError) -> None:
-    reason = f"nothing is kept for the next run, since the cache folder {folder} cannot be written: {error.strerror}."
-    _told(printable(reason))
+    shown = str(folder) if str(folder).isprintable() else ascii(str(folder))
+    reason = f"nothing is kept for the next run, since the cache folder {shown} cannot be written: {error.strerror}."
+    _told(reason)

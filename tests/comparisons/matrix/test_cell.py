@@ -11,8 +11,7 @@ import pytest
 from raytruth.comparisons.feasible_sets.feasible_set import UNUSED, feasible_set
 from raytruth.comparisons.judgement.exact_test import UNJUDGED
 from raytruth.comparisons.judgement.verdict import Evidence, gather_evidence
-from raytruth.comparisons.matrix.cell import run_cell
-from raytruth.comparisons.matrix.whole_cells import CELL_FILE
+from raytruth.comparisons.matrix.cell import CELL_FILE, run_cell
 from raytruth.comparisons.noise.lobes import find_lobes
 from raytruth.comparisons.records.image_files import read_image
 from raytruth.comparisons.records.pixel_evidence import pixel_evidence, read_pixel_evidence
