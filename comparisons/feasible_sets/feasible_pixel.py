@@ -59,11 +59,11 @@ class FollowedRay:
 class PixelEvaluator:
     """Evaluates the pixels of one scene; `bound` limits what any ray can bring, None if that is unknown."""
 
-    def __init__(self, rays: RoundedRays, bound: RadianceBound | None, output_bits: int, most_comparisons: int) -> None:
+    def __init__(self, rays: RoundedRays, bound: RadianceBound | None, output_bits: int, most_work: int) -> None:
         self.rays = rays
         self.bound = bound
-        self.most_comparisons = most_comparisons
-        """After so many, no further ray of a pixel is followed."""
+        self.most_work = most_work
+        """After so much (RoundedRays.work_done), no further ray of a pixel is followed."""
         self.negligible_weight = 2.0**-output_bits
         """What is under a rounding of the brightest value does not deserve its own tree."""
         self.excess = 1.0 + 2.0 ** (10 - output_bits)
@@ -74,7 +74,7 @@ class PixelEvaluator:
         self.merged = False
         self.may_merge = True
         self.spent = False
-        """Whether the last pixel would have taken more comparisons than it may."""
+        """Whether the last pixel would have taken more work than it may."""
         self._primary: tuple[tuple[int, int], tuple[Any, Any]] | None = None
 
     def colors(self, column: int, line: int, *, may_merge: bool = True) -> tuple[list[Box], bool]:
@@ -117,19 +117,19 @@ class PixelEvaluator:
         return self._primary[1]
 
     def _followed(self, ray: Any) -> FollowedRay:
-        """The ray tree of a camera ray, the heaviest rays first, until the pixel's comparisons are spent.
+        """The ray tree of a camera ray, the heaviest rays first, until the pixel's work is spent.
 
         Two budgets follow the same rays in the same order, so that the larger one leaves less open.
         """
-        decisions, order = self.rays.decisions, itertools.count()
-        last = decisions.comparisons + self.most_comparisons
+        order = itertools.count()
+        last = self.rays.work_done() + self.most_work
         root = FollowedRay(ray, MOST_OUTCOMES)
         waiting = [(0.0, next(order), root)]
         while waiting:
             followed = heappop(waiting)[2]
             if self._is_negligible(followed.ray[2]):
                 continue
-            if decisions.comparisons >= last:
+            if self.rays.work_done() >= last:
                 self._give_up(spent=True)
                 break
             try:

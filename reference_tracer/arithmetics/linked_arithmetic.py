@@ -70,15 +70,11 @@ def linked_arithmetic(precision_bits: int, decisions: Decisions) -> Arithmetic:
 
 
 def _comparisons(decisions: Decisions) -> dict[str, Any]:
-    """As for balls, but what the ranges leave open is looked at more closely; whole numbers are just compared.
-
-    One that is looked at more closely counts as two.
-    """
+    """As for balls, but what the ranges leave open is looked at more closely; whole numbers are just compared."""
     plain = comparison_functions(decisions)
 
     def is_less(a: Any, b: Any) -> bool:
         if isinstance(a, LinkedBall):
-            decisions.comparisons += 1
             if a.range < b.range:
                 return True
             if a.range >= b.range:
@@ -88,7 +84,6 @@ def _comparisons(decisions: Decisions) -> dict[str, Any]:
 
     def is_less_or_equal(a: Any, b: Any) -> bool:
         if isinstance(a, LinkedBall):
-            decisions.comparisons += 1
             if a.range <= b.range:
                 return True
             if a.range > b.range:
@@ -98,7 +93,6 @@ def _comparisons(decisions: Decisions) -> dict[str, Any]:
 
     def is_equal(a: Any, b: Any) -> bool:
         if isinstance(a, LinkedBall):
-            decisions.comparisons += 1
             if a.range == b.range:
                 return True
             if a.range != b.range:
