@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 # Of the image's largest value, a quarter of a step of an 8-bit picture: wider, and a test of the pixel would be weak.
 WIDE = 2.0**-10
 FLOAT32_BITS = 24
-# An image of 32 x 24 pixels is to take a minute at most on one process: 78 ms a pixel. A comparison of plain balls takes 2
-# to 4 µs, and a pixel is evaluated in them twice at most: 2 · 2^12 · 2.7 µs = 22 ms. The library's largest need is 3,776.
+# An image of 32 x 24 pixels is to take a minute at most on one process, for each error model: 78 ms a pixel. What plain
+# balls count takes 2 to 4 µs, and a pixel is evaluated in them twice at most: 2 · 2^12 · 2.7 µs = 22 ms.
 PLAIN_WORK = 2**12
 # What linked balls count takes 0.5 to 1.2 µs, mostly 0.8: 2^16 · 0.8 µs = 52 ms a pixel, shared by those that need it.
 LINKED_WORK = 2**16
