@@ -18,6 +18,7 @@ from flint import arb
 
 from raytruth.comparisons.error_models.bounded_offsets import departure_within_bound, is_shadowed_from_within_bound
 from raytruth.reference_tracer.arithmetics.balls import stored_number
+from raytruth.reference_tracer.source.bounding_volume import certainly_less
 from raytruth.reference_tracer.source.scene_data import (
     SPHERE_CENTER,
     SPHERE_RADIUS,
@@ -28,7 +29,7 @@ from raytruth.reference_tracer.source.scene_data import (
     vector_of,
 )
 from raytruth.reference_tracer.source.shadow import departure
-from raytruth.reference_tracer.source.sphere import sphere_distance
+from raytruth.reference_tracer.source.sphere import distance_to_other_side, sphere_distance
 from raytruth.reference_tracer.source.traversal import is_occluded
 from raytruth.reference_tracer.source.triangle import triangle_distance
 from raytruth.reference_tracer.source.vector import add, along, dot, subtract
@@ -67,6 +68,7 @@ def offset_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
         overrides["distance_to_sphere"] = distance_to_any_sphere
         overrides["distance_to_triangle"] = distance_to_any_triangle
     elif offset.moves_rays and not offset.is_bound:
+        overrides["distance_to_sphere"] = distance_to_sphere_from_offset
         overrides["distance_to_other_side"] = distance_to_other_side_from_offset
     if error_model.shadow_shortening > 0.0:
         overrides["shadow_ray_end"] = early_shadow_ray_end
@@ -103,6 +105,22 @@ def departure_along_ray(primitive: int, point: Vector, normal: Vector, direction
     largest = max(max(abs(point[0]), abs(point[1])), abs(point[2]))  # noqa: PLW3301 - balls have a maximum of two
     offset = absolute_offset + relative_offset * largest
     return along(point, direction, offset / sqrt(dot(direction, direction))), primitive
+
+
+def distance_to_sphere_from_offset(scene: SceneData, origin: Vector, direction: Vector, left: int, sphere: int) -> Scalar:
+    """Of the sphere that it has left, the other side; but as of any sphere for who comes back to it from outside.
+
+    Who starts beside a sphere sees a near light in another direction than from its surface, and may see the sphere
+    itself before it.
+    """
+    center = vector_of(scene, SPHERE_CENTER, sphere)
+    radius = number_of(scene, SPHERE_RADIUS, sphere)
+    if sphere == left:
+        from_center = subtract(origin, center)
+        outside = certainly_less(radius * radius, dot(from_center, from_center))
+        if not (outside and certainly_less(dot(direction, from_center), 0.0)):
+            return distance_to_other_side(origin, direction, center)
+    return sphere_distance(origin, direction, center, radius)
 
 
 def distance_to_other_side_from_offset(origin: Vector, direction: Vector, center: Vector) -> Scalar:

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from flint import arb
 
+from raytruth.comparisons.error_models.hit_points import hit_point_constants, hit_point_overrides
 from raytruth.comparisons.error_models.rasterisers.rasterisation import rasterisation_constants, rasterisation_overrides
 from raytruth.comparisons.error_models.ray_offsets import offset_constants, offset_overrides
-from raytruth.comparisons.error_models.triangle_points import triangle_point_constants, triangle_point_overrides
+from raytruth.comparisons.error_models.sphere_tests import sphere_test_constants, sphere_test_overrides
 from raytruth.comparisons.error_models.triangle_tests import triangle_test_constants, triangle_test_overrides
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.arithmetics.balls import MARGIN_BITS, Decisions, ball_arithmetic, rounded_ball_arithmetic
@@ -172,7 +173,7 @@ def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int
     distance, primitive = kernel.nearest_hit(data, origin, direction, NOTHING)
     if primitive == NOTHING:
         return NOTHING, ()
-    point = kernel.along(origin, direction, distance)
+    point = kernel.hit_point(data, origin, direction, distance, primitive)
     return primitive, (distance, *point, *kernel.surface_normal(data, primitive, point))
 
 
@@ -181,7 +182,8 @@ def _overrides(error_model: ErrorModel) -> Overrides:
     return {
         **offset_overrides(error_model),
         **triangle_test_overrides(error_model),
-        **triangle_point_overrides(error_model),
+        **hit_point_overrides(error_model),
+        **sphere_test_overrides(error_model),
         **rasterisation_overrides(error_model.rasterisation),
     }
 
@@ -190,7 +192,8 @@ def _constants(error_model: ErrorModel, scene: Scene) -> dict[str, Any]:
     return {
         **offset_constants(error_model),
         **triangle_test_constants(),
-        **triangle_point_constants(error_model),
+        **hit_point_constants(error_model),
+        **sphere_test_constants(error_model),
         **rasterisation_constants(error_model.rasterisation, scene),
     }
 

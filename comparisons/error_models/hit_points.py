@@ -1,0 +1,132 @@
+"""How a renderer may find the point where a ray meets a surface, in place of going along the ray.
+
+All are the same in exact arithmetic. Where a triangle is far larger than its distance, or a surface small and far,
+rounding does other things to them. The functions here are overrides, as in triangle_tests.py.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from flint import arb
+
+from raytruth.reference_tracer.source.features import SPHERES
+from raytruth.reference_tracer.source.scene_data import (
+    SPHERE_CENTER,
+    SPHERE_MATERIAL,
+    SPHERE_RADIUS,
+    TRIANGLE_A,
+    TRIANGLE_B,
+    TRIANGLE_C,
+    number_of,
+    rows_of,
+    vector_of,
+)
+from raytruth.reference_tracer.source.vector import add, along, cross, dot, normalize, scale, subtract
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.reference_tracer.source.numbers import Scalar, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
+
+interpolation_error_x: Scalar = 0.0
+"""Of a coordinate that is interpolated between corners, in units of the largest of theirs."""
+interpolation_error_y: Scalar = 0.0
+interpolation_error_z: Scalar = 0.0
+put_back_on_spheres: Scalar = 0.0
+"""1 where a point found along the ray is then put back on its sphere, else 0."""
+
+# (1 - u - v)·a + u·b + v·c, for weights between 0 and 1: the first weight is off by two roundoffs at most, a coordinate
+# of a by as much of it; each product and each of two sums rounds once, the weights' sum being 1: in all 2 + 3.
+INTERPOLATION_ROUNDOFFS = 5
+
+
+def hit_point_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
+    """The functions of the tracer's source that are replaced; nothing for who goes along the ray."""
+    overrides: dict[str, Callable[..., Any]] = {}
+    if error_model.triangle_points == "barycentric":
+        weights = {"pluecker": hit_point_by_pluecker, "moeller-trumbore": hit_point_by_moeller_trumbore}
+        overrides["hit_point"] = weights[error_model.triangle_test]
+    if error_model.sphere_points == "normalised":
+        overrides["sphere_normal"] = normalised_sphere_normal
+    return overrides
+
+
+def hit_point_constants(error_model: ErrorModel) -> dict[str, Any]:
+    """The constants of the overrides by name, as balls."""
+    error = arb(0, INTERPOLATION_ROUNDOFFS * 2.0**-error_model.precision_bits)
+    put_back = arb(1 if error_model.sphere_points == "put back" else 0)
+    return {**{f"interpolation_error_{axis}": error for axis in "xyz"}, "put_back_on_spheres": put_back}
+
+
+def hit_point_by_pluecker(
+    scene: SceneData, origin: Vector, direction: Vector, distance: Scalar, primitive: int
+) -> Vector:
+    """On a sphere along the ray, on a triangle from its corners: (1 - u - v)·a + u·b + v·c.
+
+    The weights are the products of Plücker coordinates of Embree's robust test (triangle_tests.pluecker_distance), over
+    the sum of all three by a reciprocal: PlueckerHitM::finalize in kernels/geometry/triangle_intersector_pluecker.h.
+    Plain balls do not know that the weights' errors cancel, so they are given a + u·(b - a) + v·(c - a), and what
+    rounding does to the sum above.
+    """
+    triangle = primitive
+    if SPHERES:
+        triangle = primitive - rows_of(scene, SPHERE_MATERIAL)
+    if triangle < 0:
+        return along(origin, direction, distance)
+    a = vector_of(scene, TRIANGLE_A, triangle)
+    b = vector_of(scene, TRIANGLE_B, triangle)
+    c = vector_of(scene, TRIANGLE_C, triangle)
+    to_a, to_b, to_c = subtract(a, origin), subtract(b, origin), subtract(c, origin)
+    u = dot(cross(subtract(to_c, to_a), add(to_c, to_a)), direction)
+    v = dot(cross(subtract(to_a, to_b), add(to_a, to_b)), direction)
+    w = dot(cross(subtract(to_b, to_c), add(to_b, to_c)), direction)
+    reciprocal = 1.0 / (u + v + w) * 1.0 * 1.0 * 1.0  # as in triangle_tests.py
+    from_a = add(scale(subtract(b, a), u * reciprocal), scale(subtract(c, a), v * reciprocal))
+    x, y, z = add(a, from_a)
+    x = x + max(max(abs(a[0]), abs(b[0])), abs(c[0])) * interpolation_error_x  # noqa: PLW3301 - balls have a maximum of two
+    y = y + max(max(abs(a[1]), abs(b[1])), abs(c[1])) * interpolation_error_y  # noqa: PLW3301 - as above
+    z = z + max(max(abs(a[2]), abs(b[2])), abs(c[2])) * interpolation_error_z  # noqa: PLW3301 - as above
+    return (x, y, z)
+
+
+def hit_point_by_moeller_trumbore(
+    scene: SceneData, origin: Vector, direction: Vector, distance: Scalar, primitive: int
+) -> Vector:
+    """As hit_point_by_pluecker, with the weights of Embree's fast test (triangle_tests.moeller_trumbore_distance).
+
+    Mitsuba 3.9.1 takes its points so from Embree 3.13.4 (src/render/mesh.cpp line 1566; kernels/geometry/
+    triangle_intersector_moeller.h, MoellerTrumboreHitM::finalize). A point on a sphere is found along the ray and, in
+    its scalar variants, put back on the sphere along its normal (src/shapes/sphere.cpp lines 691-693).
+    """
+    triangle = primitive
+    if SPHERES:
+        triangle = primitive - rows_of(scene, SPHERE_MATERIAL)
+    if triangle < 0:
+        point = along(origin, direction, distance)
+        if put_back_on_spheres > 0.0:
+            center = vector_of(scene, SPHERE_CENTER, primitive)
+            return along(center, normalize(subtract(point, center)), number_of(scene, SPHERE_RADIUS, primitive))
+        return point
+    a = vector_of(scene, TRIANGLE_A, triangle)
+    b = vector_of(scene, TRIANGLE_B, triangle)
+    c = vector_of(scene, TRIANGLE_C, triangle)
+    first_edge = subtract(a, b)
+    second_edge = subtract(c, a)
+    turn = cross(subtract(a, origin), direction)
+    # The sign that Embree gives all three of these cancels.
+    reciprocal = 1.0 / dot(cross(second_edge, first_edge), direction) * 1.0 * 1.0 * 1.0  # as in triangle_tests.py
+    u = dot(turn, second_edge) * reciprocal
+    v = dot(turn, first_edge) * reciprocal
+    x, y, z = add(a, subtract(scale(second_edge, v), scale(first_edge, u)))
+    x = x + max(max(abs(a[0]), abs(b[0])), abs(c[0])) * interpolation_error_x  # noqa: PLW3301 - balls have a maximum of two
+    y = y + max(max(abs(a[1]), abs(b[1])), abs(c[1])) * interpolation_error_y  # noqa: PLW3301 - as above
+    z = z + max(max(abs(a[2]), abs(b[2])), abs(c[2])) * interpolation_error_z  # noqa: PLW3301 - as above
+    return (x, y, z)
+
+
+def normalised_sphere_normal(point: Vector, center: Vector, radius: Scalar) -> Vector:  # noqa: ARG001 - the signature of the function it stands for
+    """Of length 1 also at a point beside the sphere, where (p - c)/r is not."""
+    return normalize(subtract(point, center))
