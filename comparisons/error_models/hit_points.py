@@ -35,12 +35,22 @@ interpolation_error_x: Scalar = 0.0
 """Of a coordinate that is interpolated between corners, in units of the largest of theirs."""
 interpolation_error_y: Scalar = 0.0
 interpolation_error_z: Scalar = 0.0
+weight_error_u: Scalar = 0.0
+"""Of a weight by Möller and Trumbore's formulas, in units of all terms that it is summed from."""
+weight_error_v: Scalar = 0.0
 put_back_on_spheres: Scalar = 0.0
 """1 where a point found along the ray is then put back on its sphere, else 0."""
 
 # (1 - u - v)·a + u·b + v·c, for weights between 0 and 1: the first weight is off by two roundoffs at most, a coordinate
 # of a by as much of it; each product and each of two sums rounds once, the weights' sum being 1: in all 2 + 3.
 INTERPOLATION_ROUNDOFFS = 5
+# Möller and Trumbore's U = ((a - o) × d)·e, and the determinant ((c - a) × (a - b))·d, are each six products of three
+# numbers, of which each term is rounded by seven operations at most: two differences, two products, a difference of
+# two and two sums. A weight is their quotient, off by the sum of their errors over the determinant, for a weight between 0
+# and 1, and by the 4 of a reciprocal and its product (triangle_tests.py), which are no more than 4 times the
+# determinant's terms over the determinant: in all 7 of U's terms and 11 of the determinant's. One more is for the
+# products of errors.
+WEIGHT_ROUNDOFFS = 12
 
 
 def hit_point_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
@@ -57,8 +67,12 @@ def hit_point_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]
 def hit_point_constants(error_model: ErrorModel) -> dict[str, Any]:
     """The constants of the overrides by name, as balls."""
     error = arb(0, INTERPOLATION_ROUNDOFFS * 2.0**-error_model.precision_bits)
-    put_back = arb(1 if error_model.sphere_points == "put back" else 0)
-    return {**{f"interpolation_error_{axis}": error for axis in "xyz"}, "put_back_on_spheres": put_back}
+    of_weight = arb(0, WEIGHT_ROUNDOFFS * 2.0**-error_model.precision_bits)
+    return {
+        **{f"interpolation_error_{axis}": error for axis in "xyz"},
+        **{f"weight_error_{weight}": of_weight for weight in "uv"},
+        "put_back_on_spheres": arb(1 if error_model.sphere_points == "put back" else 0),
+    }
 
 
 def hit_point_by_pluecker(
@@ -99,7 +113,10 @@ def hit_point_by_moeller_trumbore(
 
     Mitsuba 3.9.1 takes its points so from Embree 3.13.4 (src/render/mesh.cpp line 1566; kernels/geometry/
     triangle_intersector_moeller.h, MoellerTrumboreHitM::finalize). A point on a sphere is found along the ray and, in
-    its scalar variants, put back on the sphere along its normal (src/shapes/sphere.cpp lines 691-693).
+    its scalar variants, put back on the sphere along its normal (src/shapes/sphere.cpp lines 690-693).
+
+    In exact arithmetic the corners give the same point as the ray does. So the point is found along the ray, and then
+    moved, in the triangle's plane, by what rounding does to the weights: WEIGHT_ROUNDOFFS.
     """
     triangle = primitive
     if SPHERES:
@@ -113,14 +130,21 @@ def hit_point_by_moeller_trumbore(
     a = vector_of(scene, TRIANGLE_A, triangle)
     b = vector_of(scene, TRIANGLE_B, triangle)
     c = vector_of(scene, TRIANGLE_C, triangle)
-    first_edge = subtract(a, b)
-    second_edge = subtract(c, a)
-    turn = cross(subtract(a, origin), direction)
-    # The sign that Embree gives all three of these cancels.
-    reciprocal = 1.0 / dot(cross(second_edge, first_edge), direction) * 1.0 * 1.0 * 1.0  # as in triangle_tests.py
-    u = dot(turn, second_edge) * reciprocal
-    v = dot(turn, first_edge) * reciprocal
-    x, y, z = add(a, subtract(scale(second_edge, v), scale(first_edge, u)))
+    first_edge, second_edge, to_corner = subtract(a, b), subtract(c, a), subtract(a, origin)
+    edge_1 = (abs(first_edge[0]), abs(first_edge[1]), abs(first_edge[2]))
+    edge_2 = (abs(second_edge[0]), abs(second_edge[1]), abs(second_edge[2]))
+    steps = (abs(direction[0]), abs(direction[1]), abs(direction[2]))
+    reach = (abs(to_corner[0]), abs(to_corner[1]), abs(to_corner[2]))
+    # Products of vectors with each minus made a plus: of the terms that are summed, how large all are together.
+    turn = add(cross(reach, steps), scale((reach[2] * steps[1], reach[0] * steps[2], reach[1] * steps[0]), 2.0))
+    normal = add(
+        cross(edge_1, edge_2), scale((edge_1[2] * edge_2[1], edge_1[0] * edge_2[2], edge_1[1] * edge_2[0]), 2.0)
+    )
+    area = dot(normal, steps)
+    inverse = 1.0 / abs(dot(cross(second_edge, first_edge), direction))
+    u_error = (dot(turn, edge_2) + area) * inverse * weight_error_u
+    v_error = (dot(turn, edge_1) + area) * inverse * weight_error_v
+    x, y, z = add(along(origin, direction, distance), add(scale(first_edge, u_error), scale(second_edge, v_error)))
     x = x + max(max(abs(a[0]), abs(b[0])), abs(c[0])) * interpolation_error_x  # noqa: PLW3301 - balls have a maximum of two
     y = y + max(max(abs(a[1]), abs(b[1])), abs(c[1])) * interpolation_error_y  # noqa: PLW3301 - as above
     z = z + max(max(abs(a[2]), abs(b[2])), abs(c[2])) * interpolation_error_z  # noqa: PLW3301 - as above

@@ -107,7 +107,9 @@ def departure_along_ray(primitive: int, point: Vector, normal: Vector, direction
     return along(point, direction, offset / sqrt(dot(direction, direction))), primitive
 
 
-def distance_to_sphere_from_offset(scene: SceneData, origin: Vector, direction: Vector, left: int, sphere: int) -> Scalar:
+def distance_to_sphere_from_offset(
+    scene: SceneData, origin: Vector, direction: Vector, left: int, sphere: int
+) -> Scalar:
     """Of the sphere that it has left, the other side; but as of any sphere for who comes back to it from outside.
 
     Who starts beside a sphere sees a near light in another direction than from its surface, and may see the sphere

@@ -9,7 +9,7 @@ triangle_tests.py.
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import dist, inf, sqrt
 from typing import TYPE_CHECKING, Any
 
 from flint import arb
@@ -26,6 +26,7 @@ from raytruth.reference_tracer.source.scene_data import (
 from raytruth.reference_tracer.source.sphere import distance_to_other_side, sphere_distance
 from raytruth.reference_tracer.source.traversal import NOTHING, nearest_triangle
 from raytruth.reference_tracer.source.vector import along, dot, subtract
+from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,25 +34,31 @@ if TYPE_CHECKING:
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
+    from raytruth.scenes.scene import Scene
 
 absolute_offset: Scalar = 0.0
 """As in ray_offsets.py."""
 relative_offset: Scalar = 0.0
 surface_slack: Scalar = 0.0
 """Of a radius and a largest coordinate: no offset above it is lost to what rounding does to either formula."""
-start_slack: Scalar = 0.0
-"""The same in float64."""
+put_back_slack: Scalar = 0.0
+"""The same for a test in float64."""
+reach_slack: Scalar = 0.0
+"""What is lost besides of an offset from a point that was found along the longest ray."""
 
 # A ray that starts δ above a sphere of radius r surely does not meet it again if δ is above what rounding may shift the
 # roots by. With u the roundoff and m the largest coordinate of its start: the foot, and the vector from the centre to
 # it, are off by e = u·(1.8·m + 3.8·r), its square less r² by D = 5·u·r² + 2·r·e; the roots move by e + D/(2·h) + 3·u·r,
 # where h is half the chord. Far from a tangent the farther root lies δ·r/h behind the start, so that
 # δ > D/r + 2·e + 6·u·r = u·(26.2·r + 7.2·m) suffices; at a tangent 2·r·δ > D does. The textbook's constant |o-c|² - r²
-# is off by less than D.
-SURFACE_ROUNDOFFS = 27
-# In float64 only the start may be beside where it should: the unit normal is off by 5·u (its square by 3, the root and
-# the product), times r by one more, and the sums with the centre and with the offset round m: u·(6·r + 2·√3·m).
-START_ROUNDOFFS = 6
+# is off by less than D. And the start may be beside where it should be, by what is counted next.
+SURFACE_ROUNDOFFS = 36
+# A point that was put back on the sphere: its unit normal is off by 5·u (its square by 3, the root and the product),
+# times r by one more, and the sums with the centre and with the offset round m: u·(6·r + 2·√3·m).
+PUT_BACK_ROUNDOFFS = 6
+# A point along a ray of length t: besides e + D/(2·r) + 3·u·r for the root, the sum of root and foot, and its product
+# with the direction, are rounded: u·(9.3·r + 3.6·m + 2·t).
+ALONG_ROUNDOFFS = 2
 
 
 def sphere_test_overrides(error_model: ErrorModel) -> dict[str, Callable[..., Any]]:
@@ -66,10 +73,28 @@ def sphere_test_overrides(error_model: ErrorModel) -> dict[str, Callable[..., An
     return {**overrides, "is_occluded": is_occluded_by_textbook_spheres}
 
 
-def sphere_test_constants(error_model: ErrorModel) -> dict[str, Any]:
+def sphere_test_constants(error_model: ErrorModel, scene: Scene) -> dict[str, Any]:
     """The constants of the overrides by name, as balls."""
     roundoff = 2.0**-error_model.precision_bits
-    return {"surface_slack": arb(SURFACE_ROUNDOFFS * roundoff), "start_slack": arb(START_ROUNDOFFS * roundoff)}
+    along = 0.0 if error_model.sphere_points == "put back" else ALONG_ROUNDOFFS * _reach(scene)
+    return {
+        "surface_slack": arb(SURFACE_ROUNDOFFS * roundoff),
+        "put_back_slack": arb(PUT_BACK_ROUNDOFFS * roundoff),
+        "reach_slack": arb(along * roundoff),
+    }
+
+
+def _reach(scene: Scene) -> float:
+    """No ray that meets a sphere is longer: all come from the camera, from a mirror or from glass."""
+    spheres = [shape for shape in scene.objects if isinstance(shape, Sphere)]
+    starts = [(scene.camera.position, 0.0)]
+    for shape in scene.objects:
+        material = scene.materials[shape.material]
+        if material.mirror or material.dielectric:
+            starts += (
+                [(shape.center, shape.radius)] if isinstance(shape, Sphere) else [(c, 0.0) for c in shape.vertices]
+            )
+    return max((dist(start, s.center) + radius + s.radius for s in spheres for start, radius in starts), default=0.0)
 
 
 def distance_to_sphere_from_foot(scene: SceneData, origin: Vector, direction: Vector, left: int, sphere: int) -> Scalar:
@@ -83,7 +108,8 @@ def distance_to_sphere_from_foot(scene: SceneData, origin: Vector, direction: Ve
     radius = number_of(scene, SPHERE_RADIUS, sphere)
     if sphere == left:
         largest = max(max(abs(origin[0]), abs(origin[1])), abs(origin[2]))  # noqa: PLW3301 - balls have a maximum of two
-        beside = certainly_less(surface_slack * (radius + largest), absolute_offset + relative_offset * largest)
+        offset = absolute_offset + relative_offset * largest
+        beside = certainly_less(surface_slack * (radius + largest) + reach_slack, offset)
         from_center = subtract(origin, center)
         outside = certainly_less(radius * radius, dot(from_center, from_center))
         if beside and not (outside and certainly_less(dot(direction, from_center), 0.0)):
@@ -119,7 +145,7 @@ def is_occluded_by_accurate_spheres(
             center = vector_of(scene, SPHERE_CENTER, sphere)
             radius = number_of(scene, SPHERE_RADIUS, sphere)
             from_center = subtract(origin, center)
-            beside = sphere == left and certainly_less(start_slack * (radius + largest), offset)
+            beside = sphere == left and certainly_less(put_back_slack * (radius + largest), offset)
             outside = certainly_less(radius * radius, dot(from_center, from_center))
             distance = inf
             if beside and not (outside and certainly_less(dot(direction, from_center), 0.0)):
@@ -148,7 +174,7 @@ def is_occluded_by_textbook_spheres(
             from_center = subtract(origin, center)
             half_linear = dot(from_center, direction)
             center_squared = dot(from_center, from_center)
-            beside = sphere == left and certainly_less(surface_slack * (radius + largest), offset)
+            beside = sphere == left and certainly_less(surface_slack * (radius + largest) + reach_slack, offset)
             outside = certainly_less(radius * radius, center_squared)
             distance = inf
             if beside and not (outside and certainly_less(half_linear, 0.0)):

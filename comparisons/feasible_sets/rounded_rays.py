@@ -193,7 +193,7 @@ def _constants(error_model: ErrorModel, scene: Scene) -> dict[str, Any]:
         **offset_constants(error_model),
         **triangle_test_constants(),
         **hit_point_constants(error_model),
-        **sphere_test_constants(error_model),
+        **sphere_test_constants(error_model, scene),
         **rasterisation_constants(error_model.rasterisation, scene),
     }
 

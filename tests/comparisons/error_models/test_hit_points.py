@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from flint import arb
-
-from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.triangle_points import (
     INTERPOLATION_ROUNDOFFS,
     surface_at_barycentric,
     triangle_point_constants,
     triangle_point_overrides,
 )
+
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic
 from raytruth.reference_tracer.source.ray_tree import surface_at
