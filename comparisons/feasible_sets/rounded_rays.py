@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from flint import arb
 
 from raytruth.comparisons.error_models.hit_points import hit_point_constants, hit_point_overrides
+from raytruth.comparisons.error_models.left_triangles import left_triangle_constants, left_triangle_overrides
 from raytruth.comparisons.error_models.rasterisers.rasterisation import rasterisation_constants, rasterisation_overrides
 from raytruth.comparisons.error_models.ray_offsets import offset_constants, offset_overrides
 from raytruth.comparisons.error_models.sphere_tests import sphere_test_constants, sphere_test_overrides
@@ -183,6 +184,7 @@ def _overrides(error_model: ErrorModel) -> Overrides:
         **offset_overrides(error_model),
         **triangle_test_overrides(error_model),
         **hit_point_overrides(error_model),
+        **left_triangle_overrides(error_model),
         **sphere_test_overrides(error_model),
         **rasterisation_overrides(error_model.rasterisation),
     }
@@ -193,6 +195,7 @@ def _constants(error_model: ErrorModel, scene: Scene) -> dict[str, Any]:
         **offset_constants(error_model),
         **triangle_test_constants(),
         **hit_point_constants(error_model),
+        **left_triangle_constants(error_model),
         **sphere_test_constants(error_model, scene),
         **rasterisation_constants(error_model.rasterisation, scene),
     }
