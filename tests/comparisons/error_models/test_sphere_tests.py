@@ -1,0 +1,144 @@
+"""Mitsuba's tests of rays against spheres: they are the truth's, and float32's distances lie in their enclosures."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from flint import arb
+
+from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.ray_offsets import offset_constants, offset_overrides
+from raytruth.comparisons.error_models.sphere_tests import sphere_test_constants, sphere_test_overrides
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, make_kernel
+from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic
+from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_RADIUS
+from raytruth.reference_tracer.source.sphere import sphere_distance
+from raytruth.scenes.requirements import Feature
+from tests.comparisons.deciding_scenes import ball_as_ground, ball_from_afar
+from tests.reference_tracer.kernels import kept_precision, scene_data
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from raytruth.scenes.scene import Scene
+
+pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
+
+OFFSET = RayOffset(1500 * 2.0**-24, 1500 * 2.0**-24)
+FROM_FOOT = ErrorModel("", 24, OFFSET, sphere_test="from the foot")
+IN_DOUBLE = replace(FROM_FOOT, sphere_test="from the foot, accurate for shadows")
+Case = tuple[Any, Any, Any, float]
+
+
+@pytest.fixture
+def keep_precision() -> Iterator[None]:
+    yield from kept_precision()
+
+
+def kernel_of(model: ErrorModel, scene: Scene) -> tuple[Any, Decisions]:
+    decisions = Decisions()
+    constants = {**offset_constants(model), **sphere_test_constants(model, scene)}
+    overrides = {**offset_overrides(model), **sphere_test_overrides(model)}
+    arithmetic = rounded_ball_arithmetic(model.precision_bits, decisions, constants)
+    return make_kernel(arithmetic, set(Feature) - {Feature.TRIANGLES}, overrides), decisions
+
+
+def cases() -> list[Case]:
+    """Rays of float32 near spheres, a quarter of them a million away from the origin."""
+    random = np.random.default_rng(7)
+    drawn: list[Case] = []
+    for number in range(400):
+        radius = np.float32(10.0 ** random.uniform(-2, 3))
+        center = (random.normal(size=3) * radius + (1e6 if number % 4 == 0 else 0)).astype(np.float32)
+        aim = random.normal(size=3)
+        origin = (center + aim / np.linalg.norm(aim) * radius * 10.0 ** random.uniform(-1, 2)).astype(np.float32)
+        target = center + random.normal(size=3) * radius * 0.7
+        direction = (target - origin) / np.linalg.norm(target - origin)
+        drawn.append((origin, direction.astype(np.float32), center, radius))
+    return drawn
+
+
+def mitsubas_distance(origin: Any, direction: Any, center: Any, radius: Any, kind: type) -> float:
+    """Its own steps, one rounding at a time; `kind` is the number type of all but the foot on the ray."""
+    wide_direction = direction.astype(kind)
+    foot = -dot(origin.astype(kind) - center.astype(kind), wide_direction) / np.sqrt(
+        dot(wide_direction, wide_direction)
+    )
+    start = (origin + np.float32(foot) * direction).astype(kind) - center.astype(kind)
+    a, b = dot(wide_direction, wide_direction), kind(2) * dot(start, wide_direction)
+    c = dot(start, start) - kind(radius) * kind(radius)
+    discriminant = b * b - kind(4) * a * c
+    if discriminant < 0:
+        return math.inf
+    larger = kind(-0.5) * (b + np.copysign(np.sqrt(discriminant), b))
+    near, far = sorted((larger / a + foot, c / larger + foot))
+    return float(np.float32(near if near >= 0 else far)) if far >= 0 else math.inf
+
+
+def dot(a: Any, b: Any) -> Any:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_the_enclosures_hold_what_mitsuba_computes(kind: Any) -> None:
+    kernel, decisions = kernel_of(FROM_FOOT, ball_from_afar())
+    hits = 0
+    for origin, direction, center, radius in cases():
+        balls = [tuple(arb(float(number)) for number in vector) for vector in (origin, direction, center)]
+        data = scene_data({SPHERE_CENTER: [balls[2]], SPHERE_RADIUS: [arb(float(radius))]})
+        outcomes = list(
+            every_outcome(
+                lambda data=data, balls=balls: kernel.distance_to_sphere(data, *balls[:2], -1, 0), decisions, 8
+            )
+        )
+        distance = mitsubas_distance(origin, direction, center, radius, kind)
+        if math.isfinite(distance):
+            hits += 1
+            # It is rounded once more than the formula's result: to float32, where that is in float64.
+            rounding = arb(0, distance * 2.0**-24)
+            assert any((ball + rounding).contains(arb(distance)) for ball in outcomes if ball.is_finite())
+        else:
+            assert any(not ball.is_finite() for ball in outcomes)
+    assert hits > 100
+
+
+def test_it_is_the_truths_in_float64() -> None:
+    names = {"surface_slack": 0.0, "put_back_slack": 0.0, "reach_slack": 0.0, "absolute_offset": 0.0}
+    arithmetic = replace(FLOAT, functions={**FLOAT.functions, **names, "relative_offset": 0.0})
+    kernel = make_kernel(arithmetic, set(Feature) - {Feature.TRIANGLES}, sphere_test_overrides(FROM_FOOT))
+    for origin, direction, center, radius in cases():
+        ray = [tuple(vector.astype(float).tolist()) for vector in (origin, direction, center)]
+        data = scene_data({SPHERE_CENTER: [ray[2]], SPHERE_RADIUS: [float(radius)]})
+        expected = sphere_distance(*ray, float(radius))
+        assert kernel.distance_to_sphere(data, *ray[:2], -1, 0) == pytest.approx(expected, rel=1e-5)
+        assert kernel.is_occluded(data, *ray[:2], -1, math.inf) == (expected < math.inf)
+
+
+@pytest.mark.parametrize("model", [FROM_FOOT, IN_DOUBLE])
+@pytest.mark.parametrize(("radius", "may_meet_itself"), [(1.0, {False}), (1e4, {True, False})])
+def test_a_sphere_shadows_itself_where_the_offset_is_lost_to_rounding(
+    model: ErrorModel, radius: float, may_meet_itself: set[bool]
+) -> None:
+    kernel, decisions = kernel_of(model, ball_as_ground())
+    above = 1e-4 if radius == 1.0 else arb(0, 1e-3)
+    origin = (arb(0), arb(above), arb(0))
+    data = scene_data({SPHERE_CENTER: [(arb(0), arb(-radius), arb(0))], SPHERE_RADIUS: [arb(radius)]})
+    up = (arb(0), arb(1), arb(0))
+    outcomes = every_outcome(lambda: kernel.is_occluded(data, origin, up, 0, arb(math.inf)), decisions, 16)
+    assert set(outcomes) == may_meet_itself
+
+
+def test_only_who_tests_so_is_given_it_and_others_are_refused() -> None:
+    assert sphere_test_overrides(ErrorModel("", 24)) == {}
+    assert set(sphere_test_overrides(FROM_FOOT)) == {"distance_to_sphere", "is_occluded"}
+    assert FROM_FOOT.in_words()["spheres"] == "from the foot test"
+    with pytest.raises(ValueError, match="from beside a sphere"):
+        replace(FROM_FOOT, ray_offset=RayOffset())
+    with pytest.raises(ValueError, match="weights"):
+        ErrorModel("", 24, triangle_points="barycentric")
+    with pytest.raises(ValueError, match="put back"):
+        ErrorModel("", 24, sphere_points="put back")
