@@ -46,8 +46,8 @@ put_back_on_spheres: Scalar = 0.0
 INTERPOLATION_ROUNDOFFS = 5
 # Möller and Trumbore's U = ((a - o) × d)·e, and the determinant ((c - a) × (a - b))·d, are each six products of three
 # numbers, of which each term is rounded by seven operations at most: two differences, two products, a difference of
-# two and two sums. A weight is their quotient, off by the sum of their errors over the determinant, for a weight between 0
-# and 1, and by the 4 of a reciprocal and its product (triangle_tests.py), which are no more than 4 times the
+# two and two sums. A weight is their quotient, off by the sum of their errors over the determinant, for a weight
+# between 0 and 1, and by the 4 of a reciprocal and its product (triangle_tests.py), which are no more than 4 times the
 # determinant's terms over the determinant: in all 7 of U's terms and 11 of the determinant's. One more is for the
 # products of errors.
 WEIGHT_ROUNDOFFS = 12

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from flint import arb
+
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.hit_points import (
     INTERPOLATION_ROUNDOFFS,
     hit_point_by_moeller_trumbore,
@@ -16,8 +18,6 @@ from raytruth.comparisons.error_models.hit_points import (
     hit_point_constants,
     hit_point_overrides,
 )
-
-from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic
 from raytruth.reference_tracer.source.ray_tree import hit_point

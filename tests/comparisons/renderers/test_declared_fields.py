@@ -1,4 +1,4 @@
-"""Fields of error models on scenes where they decide: right renderers pass with what they declare, and not without it."""
+"""Fields of error models where they decide: right renderers pass with what they declare, and not without it."""
 
 from __future__ import annotations
 
