@@ -132,6 +132,18 @@ def test_a_sphere_shadows_itself_where_the_offset_is_lost_to_rounding(
     assert set(outcomes) == may_meet_itself
 
 
+@pytest.mark.parametrize(("radius", "may_meet_itself"), [(1.0, {False}), (1e3, {True, False})])
+def test_a_ray_may_come_back_to_a_sphere_that_is_large_beside_its_start(radius: float, may_meet_itself: Any) -> None:
+    model = replace(
+        IN_DOUBLE, sphere_points="put back", triangle_test="moeller-trumbore", triangle_points="barycentric"
+    )
+    kernel, decisions = kernel_of(model, ball_from_afar())
+    data = scene_data({SPHERE_CENTER: [(arb(0), arb(-radius), arb(0))], SPHERE_RADIUS: [arb(radius)]})
+    origin, up = (arb(0), arb(1e-5, 2e-5), arb(0)), (arb(0), arb(1), arb(0))
+    outcomes = every_outcome(lambda: kernel.distance_to_sphere(data, origin, up, 0, 0), decisions, 16)
+    assert {bool(distance.is_finite()) for distance in outcomes} == may_meet_itself
+
+
 def test_only_who_tests_so_is_given_it_and_others_are_refused() -> None:
     assert sphere_test_overrides(ErrorModel("", 24)) == {}
     assert set(sphere_test_overrides(FROM_FOOT)) == {"distance_to_sphere", "is_occluded"}
