@@ -55,7 +55,6 @@ SCALAR_MODEL = ErrorModel(
 # Variants that differentiate test spheres in float32 (src/shapes/sphere.cpp lines 528-530), and leave points where they
 # are found along the ray (lines 679-688).
 LLVM_MODEL = replace(SCALAR_MODEL, sphere_test="from the foot", sphere_points="normalised")
-ERROR_MODELS = {"scalar_rgb": SCALAR_MODEL, "llvm_ad_rgb": LLVM_MODEL}
 
 # How many random samples a pixel gets. What decides are two faults in the library's glass scenes, simulated in
 # tests/meta/test_power_on_lobes.py: with 1,024 samples a bias of 1 % in what a lobe brings is always found, with 4,096
@@ -121,7 +120,7 @@ class MitsubaRenderer:
     def __init__(self, name: str, variant: str, integrators: tuple[Integrator, ...], install: str) -> None:
         self.name = name
         self.variant = variant
-        self.error_model = ERROR_MODELS[variant]
+        self.error_model = LLVM_MODEL if variant == "llvm_ad_rgb" else SCALAR_MODEL
         self.integrators = integrators
         self.install = install
 
