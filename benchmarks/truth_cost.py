@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 # One sphere; a tree of mirrors and glass; a slab, whose trees are the largest; a mesh in a tree of boxes.
 SCENES = ("single-sphere", "whitted-1980", "glass-slab", "trefoil-knot")
 ROUNDS = 11
-# Every eighth column and line: the pixels of a round are few, and lie all over the image.
+# Every eighth column and row: the pixels of a round are few, and lie all over the image.
 STRIDE = 8
 
 
@@ -77,7 +77,7 @@ def _cost(name: str, truth: Sequence[float], other: Sequence[float]) -> Cost:
 
 def _pixels(scene: Scene) -> list[tuple[int, int]]:
     camera = scene.camera
-    return [(column, line) for line in range(0, camera.height, STRIDE) for column in range(0, camera.width, STRIDE)]
+    return [(column, row) for row in range(0, camera.height, STRIDE) for column in range(0, camera.width, STRIDE)]
 
 
 def _truth(scene: Scene) -> Callable[[], float]:
@@ -90,7 +90,7 @@ def _interpreted(scene: Scene) -> Callable[[], float]:
     frame = prepared.kernel.camera_frame(prepared.data)
     radiance_at = prepared.kernel.radiance_at
     return lambda: _seconds_each(
-        lambda column, line: radiance_at(prepared.data, frame, column + 0.5, line + 0.5), _pixels(scene)
+        lambda column, row: radiance_at(prepared.data, frame, column + 0.5, row + 0.5), _pixels(scene)
     )
 
 

@@ -78,7 +78,7 @@ COMMANDS = {
 
 
 def make_app() -> App:
-    """All commands."""
+    """The command line's parser, with all commands."""
     app = App(
         name="raytruth",
         help=HELP,
@@ -128,7 +128,7 @@ def _discard_output() -> None:
 
 
 def _told(error: OSError) -> str:
-    """In one sentence; an error without a file's name comes from standard output."""
+    """The error in one sentence; one without a file's name comes from standard output."""
     if error.filename is not None:
         return f"{error.filename}: {error.strerror}."
     _discard_output()

@@ -42,7 +42,7 @@ class Format:
     """What a scene can be written as."""
 
     purpose: str
-    """For which program or as what, after 'cannot be written'."""
+    """Which program it is for, or what it is written as: what follows 'cannot be written' in a message."""
     refuses: Callable[[Scene], str | None]
     """Why a scene cannot be written, in one clause; None if it can."""
     notes: Callable[[Scene], list[str]]

@@ -57,11 +57,8 @@ def render(
     opened = resized(open_scene(scene), size)
     what = f"{opened.name} at {opened.camera.width}x{opened.camera.height} in {arithmetic}"
     start = time.perf_counter()
-    try:
-        with progress(f"Rendering {what}"):
-            image = images.render(opened, arithmetic, samples)
-    except ArithmeticError as error:  # only Python floats raise
-        raise UsageError(str(error)) from error
+    with progress(f"Rendering {what}"):
+        image = images.render(opened, arithmetic, samples)
     seconds = time.perf_counter() - start
     with np.errstate(over="ignore"):  # what float32 cannot hold is infinite in the file
         _write(out, image.astype(np.float32))
@@ -82,7 +79,7 @@ def render(
 
 
 def _check_destination(path: Path) -> None:
-    """Before the work, not after it."""
+    """Raise UsageError where the file could not be written, before the work rather than after it."""
     if path.suffix.lower() not in SUFFIXES:
         raise UsageError(f"--out: expected a file that ends in {' or '.join(SUFFIXES)}, found {path.name!r}.")
     if not path.parent.is_dir():

@@ -83,17 +83,12 @@ def run(
     """
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
-    try:
-        selected = select_renderers(_split(renderer))
-        required = select_renderers(_split(require)) if require else {}
-    except UnknownRendererError as error:
-        raise UsageError(str(error)) from error
-    selected |= required
+    required = _selected(require) if require else {}
+    selected = _selected(renderer) | required
     known_failures = _waivers(waivers)
     if quick and scenes:
         raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
-    sources = write_quick_suite(out) if quick else scenes or library_names()
-    opened = _opened(sources)
+    opened = _opened(write_quick_suite(out) if quick else scenes or library_names())
     with only_run_in(out):
         with progress("Looking for the renderers"):
             plan = plan_run(opened, list(selected.values()), out, fresh=fresh)
@@ -111,16 +106,25 @@ def run(
         results = write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), cells)
         report = write_html_report(out, unless_current=True)
     _show(results, report, as_json)
-    missing = {
-        name: reason
-        for name, it in required.items()
-        if (reason := why_unavailable(it, plan.versions[name])) is not None
-    }
-    return _status(cells, missing, unmatched, strict=strict)
+    return _status(cells, _missing(required, plan), unmatched, strict=strict)
+
+
+def _selected(names: Iterable[str]) -> dict[str, Renderer]:
+    """The renderers that an option names, several in one text with commas; all if it names none."""
+    try:
+        return select_renderers([part.strip() for name in names for part in name.split(",") if part.strip()])
+    except UnknownRendererError as error:
+        raise UsageError(str(error)) from error
+
+
+def _missing(required: Mapping[str, Renderer], plan: Plan) -> dict[str, str]:
+    """The required renderers that are not available, and why not."""
+    reasons = {name: why_unavailable(renderer, plan.versions[name]) for name, renderer in required.items()}
+    return {name: reason for name, reason in reasons.items() if reason is not None}
 
 
 def _waivers(path: Path | None) -> tuple[Waiver, ...]:
-    """Those that raytruth knows, and those in the file."""
+    """The waivers that raytruth knows itself, and those in the file."""
     try:
         return load_waivers() + (load_waivers(path) if path is not None else ())
     except WaiverError as error:
@@ -129,10 +133,6 @@ def _waivers(path: Path | None) -> tuple[Waiver, ...]:
 
 def _with_versions(selected: Mapping[str, Renderer], plan: Plan) -> list[tuple[Renderer, str | None]]:
     return [(renderer, plan.versions[name]) for name, renderer in selected.items()]
-
-
-def _split(names: Iterable[str]) -> list[str]:
-    return [part.strip() for name in names for part in name.split(",") if part.strip()]
 
 
 def _opened(sources: Iterable[str]) -> dict[str, Scene]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
@@ -55,31 +55,22 @@ def spec(
     with progress("Looking for the scenes of each clause"):
         rows = _with_scenes(found.traces, results)
     if as_json:
-        print_json(
-            {
-                "clauses": [
-                    {
-                        "id": trace.clause,
-                        "tests": trace.tests,
-                        "scenes": names,
-                        "faults": [fault.name for fault in trace.faults],
-                    }
-                    for trace, names in rows
-                ],
-                "findings": found.findings,
-            }
-        )
+        print_json({"clauses": [_as_json(trace, names) for trace, names in rows], "findings": found.findings})
     else:
-        print_table(
-            ("Clause", "Tests", "Scenes", "Faults"),
-            [
-                (trace.clause, str(len(trace.tests)), str(len(names)), ", ".join(fault.name for fault in trace.faults))
-                for trace, names in rows
-            ],
-        )
+        print_table(("Clause", "Tests", "Scenes", "Faults"), [_as_row(trace, names) for trace, names in rows])
     for finding in found.findings:
         print(f"raytruth: {finding}", file=sys.stderr)
     return UNCOVERED if found.findings else 0
+
+
+def _as_json(trace: Trace, scenes: list[str]) -> dict[str, Any]:
+    faults = [fault.name for fault in trace.faults]
+    return {"id": trace.clause, "tests": trace.tests, "scenes": scenes, "faults": faults}
+
+
+def _as_row(trace: Trace, scenes: list[str]) -> tuple[str, str, str, str]:
+    faults = ", ".join(fault.name for fault in trace.faults)
+    return trace.clause, str(len(trace.tests)), str(len(scenes)), faults
 
 
 def _with_scenes(traces: tuple[Trace, ...], results: Path) -> list[tuple[Trace, list[str]]]:

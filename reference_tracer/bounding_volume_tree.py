@@ -37,7 +37,7 @@ class _Growing:
 
 
 def build_tree(corners: NDArray[np.float64]) -> Tree:
-    """Split at the median along the longest side; `corners` has shape (n, 3, 3), n > 0.
+    """A tree of boxes around triangles, split at the median along the longest side; `corners`: (n, 3, 3), n > 0.
 
     The boxes hold the corners exactly, without rounding, so a box that is missed holds no hit.
     """

@@ -1,8 +1,9 @@
 """The proven value of a pixel: the tracer in ball arithmetic, with as many bits as the pixel needs.
 
-A comparison that the balls leave undecided takes no branch: the pixel is evaluated again with twice the bits. What the
-most bits leave undecided is an exact tie, for all that can be told: every way it can go is explored. If all agree, the
-tie has no consequence and the pixel is certified all the same; else it is undecided, and says why.
+A comparison that the balls leave undecided takes no branch: the pixel is evaluated again with balls that are worked out
+exactly where they tie (exact_arithmetic.py), and if that does not decide either, with twice the bits. What is undecided
+with the most bits is an exact tie, for all that can be told: every way it can go is explored. If all agree, the tie has
+no consequence and the pixel is certified all the same; else it is undecided, and says why.
 """
 
 from __future__ import annotations
@@ -16,8 +17,16 @@ from typing import TYPE_CHECKING, Any
 from flint import arb, ctx
 
 from raytruth.reference_tracer.arithmetics.balls import TooManyOutcomesError, ball_arithmetic, every_outcome
+from raytruth.reference_tracer.arithmetics.exact_arithmetic import ExactArithmetic
 from raytruth.reference_tracer.rendering import prepare
-from raytruth.reference_tracer.ties import NotedDecisions, RaisingDecisions, UndecidedComparisonError, explanation
+from raytruth.reference_tracer.ties import (
+    ONE_HAS_NO_BOUND,
+    TOO_MANY,
+    NotedDecisions,
+    RaisingDecisions,
+    UndecidedComparisonError,
+    explanation,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,8 +40,14 @@ FEWEST_BITS = 128
 MOST_BITS = 4096
 # Six independent ties in the ray tree of one pixel.
 MOST_OUTCOMES = 64
+# For exact values: about a second for a pixel at most, in units of root_tower.py, and as much for all its outcomes.
+MOST_WORK = 400_000
+# Fixed, and not what others have left: ways that begin with the same answers must be asked the same questions.
+MOST_WORK_OF_A_WAY = MOST_WORK // MOST_OUTCOMES
 # Outcomes agree if they differ by no more than what rounding them to float64 does, once for each of two.
 TWO_ROUNDINGS = 2.0**-52
+TWO_ROUNDINGS_NEAR_ZERO = math.ulp(0.0)
+"""As TWO_ROUNDINGS, of values too small for a relative error: each moves them by half of the least float at most."""
 LARGEST_FLOAT = sys.float_info.max
 
 Color = tuple[float, float, float]
@@ -60,9 +75,9 @@ class Undecided:
     direction: Color
     """Of the primary ray, a unit vector rounded to float64."""
     outcomes: tuple[Enclosure, ...]
-    """Every value that the tie leaves open; empty if there are too many or if one of them has no bound."""
+    """Every value that the tie leaves open; empty if they cannot be told, for a reason that the explanation gives."""
     explanation: str
-    """In words: which decisions are ties."""
+    """In words: which decisions are ties, and why there are no outcomes if there are none."""
 
 
 @dataclass(frozen=True)
@@ -81,63 +96,121 @@ class Certifier:
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
-        self._evaluators: dict[int, _Evaluator] = {}
+        self._evaluators: dict[tuple[int, bool], _Evaluator] = {}
 
-    def pixel(self, column: int, line: int, widest: float = math.inf) -> CertifiedPixel:
+    def pixel(self, column: int, row: int, widest: float = math.inf) -> CertifiedPixel:
         """The colour through the centre of a pixel; more bits are used while its radius is above `widest`."""
-        bits = FEWEST_BITS
+        bits, work_left = FEWEST_BITS, MOST_WORK
         while bits <= MOST_BITS:
-            if bits not in self._evaluators:
-                self._evaluators[bits] = _Evaluator(self.scene, bits, RaisingDecisions())
             try:
-                found = self._evaluators[bits].enclosure(column, line)
+                found = self._evaluator(bits).enclosure(column, row)
             except UndecidedComparisonError:
-                found = NOTHING_KNOWN
+                found, work = self._worked_out(column, row, bits, work_left)
+                work_left -= work
             if max(found.radius) <= min(widest, LARGEST_FLOAT):
                 return CertifiedPixel(found.middle, found.radius, bits)
             bits *= 2
-        return self._explored(column, line)
+        return self._explored(column, row, widest)
 
-    def _explored(self, column: int, line: int) -> CertifiedPixel:
-        """The pixel by every way that its ties can go."""
+    def _evaluator(self, bits: int, *, exactly: bool = False) -> _Evaluator:
+        if (bits, exactly) not in self._evaluators:
+            self._evaluators[bits, exactly] = _Evaluator(self.scene, bits, RaisingDecisions(), exactly=exactly)
+        return self._evaluators[bits, exactly]
+
+    @functools.cached_property
+    def _exploration(self) -> tuple[NotedDecisions, _Evaluator]:
         decisions = NotedDecisions()
-        evaluator = _Evaluator(self.scene, MOST_BITS, decisions)
+        return decisions, _Evaluator(self.scene, MOST_BITS, decisions, exactly=True)
+
+    def _worked_out(self, column: int, row: int, bits: int, most_work: int) -> tuple[Enclosure, int]:
+        """The pixel with its ties decided by exact values, or NOTHING_KNOWN if they cannot be; and the work of that."""
+        if most_work <= 0:
+            return NOTHING_KNOWN, 0
+        evaluator = self._evaluator(bits, exactly=True)
         try:
-            ways = every_outcome(lambda: evaluator.enclosure(column, line), decisions, MOST_OUTCOMES)
-            outcomes = tuple(dict.fromkeys(ways))
-        except TooManyOutcomesError:
-            outcomes = (NOTHING_KNOWN,)
-        found = _hull(outcomes)
-        if decisions.sentences and max(found.radius) <= TWO_ROUNDINGS * min(max(found.middle), LARGEST_FLOAT):
+            return evaluator.enclosure(column, row, most_work), evaluator.work()
+        except UndecidedComparisonError:
+            return NOTHING_KNOWN, evaluator.work()
+
+    def _explored(self, column: int, row: int, widest: float) -> CertifiedPixel:
+        """The pixel by every way that its ties can go, but for those that exact values decide."""
+        decisions, evaluator = self._exploration
+        decisions.sentences.clear()
+        outcomes, obstacle = _every_enclosure(evaluator, column, row, decisions)
+        found = NOTHING_KNOWN if obstacle else _hull(outcomes)
+        if decisions.sentences and agree(found, widest):
             return CertifiedPixel(found.middle, found.radius, MOST_BITS)  # ties without a consequence
-        origin, direction = evaluator.primary_ray(column, line)
-        known = outcomes if found != NOTHING_KNOWN else ()
-        undecided = Undecided(origin, direction, known, explanation(decisions.sentences))
+        origin, direction = evaluator.primary_ray(column, row)
+        undecided = Undecided(origin, direction, outcomes, explanation(decisions.sentences, obstacle))
         return CertifiedPixel(found.middle, found.radius, MOST_BITS, undecided)
+
+
+def _every_enclosure(
+    evaluator: _Evaluator, column: int, row: int, decisions: NotedDecisions
+) -> tuple[tuple[Enclosure, ...], str]:
+    """All outcomes of a pixel and an empty text, or none and what keeps them from being told."""
+    outcomes: dict[Enclosure, None] = {}
+
+    def follow() -> Enclosure:
+        return evaluator.enclosure(column, row, MOST_WORK_OF_A_WAY)
+
+    try:
+        for outcome in every_outcome(follow, decisions, MOST_OUTCOMES):
+            if outcome == NOTHING_KNOWN:
+                return (), ONE_HAS_NO_BOUND
+            outcomes[outcome] = None
+    except TooManyOutcomesError:
+        return (), TOO_MANY
+    return tuple(outcomes), ""
+
+
+def agree(hull: Enclosure, widest: float = math.inf) -> bool:
+    """Whether outcomes with this hull differ by no more than what rounding them to float64 does, once for each of two.
+
+    `widest` is that much of the image's largest value, where it is known; else the pixel's own largest value counts.
+    """
+    of_scale = widest if widest < math.inf else TWO_ROUNDINGS * min(max(hull.middle), LARGEST_FLOAT)
+    return max(hull.radius) <= max(of_scale, TWO_ROUNDINGS_NEAR_ZERO)
 
 
 class _Evaluator:
     """A scene's kernel at one precision, which is in force while it runs."""
 
-    def __init__(self, scene: Scene, bits: int, decisions: Decisions) -> None:
-        self.arithmetic = ball_arithmetic(bits, decisions)
-        self.prepared = prepare(scene, self.arithmetic)
-        with self.arithmetic.in_force():
+    def __init__(self, scene: Scene, bits: int, decisions: Decisions, *, exactly: bool) -> None:
+        self.bits = bits
+        with ctx.workprec(bits):
+            self.exact = ExactArithmetic(decisions) if exactly else None
+            arithmetic = self.exact.arithmetic if self.exact else ball_arithmetic(bits, decisions)
+            self.prepared = prepare(scene, arithmetic)
             self.frame = self.prepared.kernel.camera_frame(self.prepared.data)
 
-    def enclosure(self, column: int, line: int) -> Enclosure:
-        """The colour through the centre of a pixel."""
-        with self.arithmetic.in_force():
-            center = (arb(column + 0.5), arb(line + 0.5))
-            color = self.prepared.kernel.radiance_at(self.prepared.data, self.frame, *center)
-            return enclosure_of(color)
+    def enclosure(self, column: int, row: int, most_work: int = 0) -> Enclosure:
+        """The colour through the centre of a pixel; exact values may take that much work."""
+        kernel, data = self.prepared.kernel, self.prepared.data
+        with ctx.workprec(self.bits):
+            if self.exact:  # each pixel has roots of its own, and the camera's among them
+                self.exact.restart(most_work)
+                self.frame = kernel.camera_frame(data)
+            color = kernel.radiance_at(data, self.frame, *self._center(column, row))
+            return enclosure_of([self._ball(channel) for channel in color])
 
-    def primary_ray(self, column: int, line: int) -> tuple[Color, Color]:
+    def work(self) -> int:
+        """Of exact values, for the pixel that was evaluated last."""
+        return self.exact.work() if self.exact else 0
+
+    def primary_ray(self, column: int, row: int) -> tuple[Color, Color]:
         """Origin and unit direction, rounded to floats."""
-        with self.arithmetic.in_force():
-            ray = self.prepared.kernel.primary_ray(self.frame, arb(column + 0.5), arb(line + 0.5))
-        (x, y, z), (dx, dy, dz) = ([float(part.mid()) for part in vector] for vector in ray)
+        with ctx.workprec(self.bits):
+            ray = self.prepared.kernel.primary_ray(self.frame, *self._center(column, row))
+        (x, y, z), (dx, dy, dz) = ([float(self._ball(part).mid()) for part in vector] for vector in ray)
         return (x, y, z), (dx, dy, dz)
+
+    def _center(self, column: int, row: int) -> tuple[Any, Any]:
+        number = self.prepared.arithmetic.number
+        return number(column + 0.5), number(row + 0.5)
+
+    def _ball(self, number: Any) -> Any:
+        return number.ball if self.exact else number
 
 
 def enclosure_of(color: Sequence[Any]) -> Enclosure:
@@ -158,9 +231,7 @@ def enclosing_floats(ball: Any) -> tuple[float, float]:
 
 
 def _hull(outcomes: Sequence[Enclosure]) -> Enclosure:
-    """The least enclosure that holds all, but for roundings; NOTHING_KNOWN if one of them is."""
-    if NOTHING_KNOWN in outcomes:
-        return NOTHING_KNOWN
+    """The least enclosure that holds all, but for roundings."""
     if len(outcomes) == 1:
         return outcomes[0]
     with ctx.workprec(FEWEST_BITS):

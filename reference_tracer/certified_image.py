@@ -18,7 +18,14 @@ from typing import TYPE_CHECKING, Any
 import flint
 import numpy as np
 
-from raytruth.reference_tracer.certification import TWO_ROUNDINGS, CertifiedPixel, Certifier, Enclosure, Undecided
+from raytruth.reference_tracer.certification import (
+    TWO_ROUNDINGS,
+    CertifiedPixel,
+    Certifier,
+    Enclosure,
+    Undecided,
+    agree,
+)
 from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
 from raytruth.reference_tracer.storage.source_digest import source_digest
 
@@ -43,7 +50,7 @@ TRUTH_ROOMS = (
 """What an enclosure depends on: how a scene is read, what it says, and how that is evaluated."""
 
 Pixel = tuple[int, int]
-"""Column and line."""
+"""Column and row."""
 
 
 @dataclass(frozen=True)
@@ -65,8 +72,8 @@ class CertifiedImage:
     def decided(self) -> NDArray[np.bool_]:
         """Where the value is proven; shape (rows, width)."""
         decided = np.ones(self.precision_bits.shape, dtype=bool)
-        for column, line in self.undecided:
-            decided[line, column] = False
+        for column, row in self.undecided:
+            decided[row, column] = False
         return decided
 
 
@@ -91,7 +98,7 @@ def certified_image(
 
     Bands that are kept from before are used unless `fresh`. `progress` is told how many bands of how many are done.
     The radius of a decided pixel is at most 2^-52 of the image's largest value: pixels that miss that at first are
-    evaluated with more bits once that value is known.
+    evaluated with more bits once that value is known. Ties whose outcomes differ by no more than that decide nothing.
     """
     bands = _bands(scene)
     images = {} if fresh else {band: image for band in bands if (image := _read(band)) is not None}
@@ -101,7 +108,11 @@ def certified_image(
         if progress is not None:
             progress(len(images), len(bands))
     widest = TWO_ROUNDINGS * largest_value(images.values())
-    wide = [(band, image, widest) for band, image in images.items() if _is_wide(image, widest).any()]
+    wide = [
+        (band, image, widest)
+        for band, image in images.items()
+        if _is_wide(image, widest).any() or _ties_without_consequence(image, widest)
+    ]
     images.update(_side_by_side(_refined_band, wide, jobs))
     return _joined([(band, images[band]) for band in bands])
 
@@ -118,7 +129,7 @@ def collect_garbage_rarely() -> None:
 
 
 def truth_key(scene: Scene) -> str:
-    """Of all that the certified image of a scene depends on."""
+    """A digest of all that the certified image of a scene depends on: the scene, our code, and the libraries."""
     versions = (flint.__version__, flint.__FLINT_VERSION__, np.__version__)
     parts = (scene.model_dump_json(), source_digest(*TRUTH_ROOMS), *versions)
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
@@ -161,15 +172,17 @@ def _certified_band(band: _Band) -> CertifiedImage:
         np.empty((band.end - band.first, width), dtype=np.int64),
         {},
     )
-    for line in range(band.first, band.end):
+    for row in range(band.first, band.end):
         for column in range(width):
-            _put(image, column, line - band.first, certifier.pixel(column, line))
+            _put(image, column, row - band.first, certifier.pixel(column, row))
     _write(band, image)
     return image
 
 
 def _refined_band(band: _Band, image: CertifiedImage, widest: float) -> CertifiedImage:
-    """With more bits where a radius is above `widest`."""
+    """With more bits where a radius is above `widest`, and with the ties decided that matter less than that."""
+    for pixel in _ties_without_consequence(image, widest):
+        del image.undecided[pixel]
     certifier = Certifier(band.scene)
     for row, column in np.argwhere(_is_wide(image, widest)).tolist():
         _put(image, column, row, certifier.pixel(column, band.first + row, widest))
@@ -181,6 +194,19 @@ def _is_wide(image: CertifiedImage, widest: float) -> NDArray[np.bool_]:
     """Which decided pixels have a radius above `widest`; none where all is black and so nothing is wide."""
     wide: NDArray[np.bool_] = image.decided & (image.radius.max(axis=2) > widest) & (widest > 0.0)
     return wide
+
+
+def _ties_without_consequence(image: CertifiedImage, widest: float) -> list[Pixel]:
+    """The undecided pixels all of whose outcomes are one value, as seen beside the image's largest."""
+    return [
+        (column, row)
+        for (column, row), reason in image.undecided.items()
+        if reason.outcomes and agree(_enclosure(image, column, row), widest)
+    ]
+
+
+def _enclosure(image: CertifiedImage, column: int, row: int) -> Enclosure:
+    return Enclosure(tuple(image.middle[row, column].tolist()), tuple(image.radius[row, column].tolist()))
 
 
 def _put(image: CertifiedImage, column: int, row: int, pixel: CertifiedPixel) -> None:

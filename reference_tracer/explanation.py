@@ -63,7 +63,7 @@ def explain(scene: Scene, x: int, y: int) -> Explanation:
     """The ray tree of the pixel in column `x` (from the left) and row `y` (from the top).
 
     The sum of the contributions equals, bit for bit, what `render` gives the pixel in Python floats. Raises
-    ExplanationError for a pixel outside the image, a tree of more than MOST_RAYS rays, or one without a value.
+    ExplanationError for a pixel outside the image, and for a tree of more than MOST_RAYS rays.
     """
     camera = scene.camera
     if not (0 <= x < camera.width and 0 <= y < camera.height):
@@ -71,10 +71,7 @@ def explain(scene: Scene, x: int, y: int) -> Explanation:
             f"Pixel {x},{y} is outside the image of {scene.name}: "
             f"expected 0,0 (top left) to {camera.width - 1},{camera.height - 1}."
         )
-    try:
-        return _Tracing(scene).explanation(x, y)
-    except ArithmeticError as error:  # as with a light in the very point that it lights
-        raise ExplanationError(f"Pixel {x},{y} of {scene.name} has no value in Python floats: {error}.") from error
+    return _Tracing(scene).explanation(x, y)
 
 
 class _Tracing:

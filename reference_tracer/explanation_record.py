@@ -16,7 +16,7 @@ Falloff = Literal["none", "inverse_square", "polynomial"]
 
 
 class Record(BaseModel):
-    """A part of an explanation."""
+    """A part of an explanation: immutable, and without keys that it does not know."""
 
     # JSON has no numbers for infinity and not-a-number: they are written as strings.
     model_config = ConfigDict(extra="forbid", frozen=True, ser_json_inf_nan="strings")
@@ -109,7 +109,7 @@ class TracedRay(Record):
     local: Vector | None
     """Emission, ambient and all lights together, at the hit."""
     mirror_reflectance: Vector | None
-    """That of a mirror, whether or not the depth allows one more ray."""
+    """The mirror's reflectance, whether or not the depth allows one more ray."""
     dielectric: DielectricTerm | None
     """None where the depth is exhausted, too."""
     contribution: Vector
@@ -124,5 +124,5 @@ class Explanation(Record):
     y: int
     convention: Literal["whitted", "radiometric"]
     sum: Vector
-    """Of all contributions, in the order of the rays: the pixel's colour."""
+    """The sum of all contributions, in the order of the rays: the pixel's colour."""
     rays: tuple[TracedRay, ...]

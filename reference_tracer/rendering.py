@@ -55,7 +55,7 @@ def render(
 
 
 def render_prepared(prepared: PreparedScene, samples: int = 1) -> NDArray[Any]:
-    """As `render`, for a scene that is rendered more than once."""
+    """An image of a prepared scene, as by `render`, which prepares it anew each time."""
     camera = prepared.scene.camera
     image = prepared.arithmetic.image(camera.height, camera.width, 3)
     _in_bands(prepared, lambda first, end: prepared.kernel.render_rows(prepared.data, samples, first, end, image))
@@ -63,7 +63,7 @@ def render_prepared(prepared: PreparedScene, samples: int = 1) -> NDArray[Any]:
 
 
 def first_hits(prepared: PreparedScene) -> tuple[NDArray[Any], NDArray[np.int64]]:
-    """Distance (infinity: none) and primitive number (-1: none) that each pixel's ray meets; shape (height, width)."""
+    """What the ray of each pixel's centre meets: distances (infinity for none) and primitives (-1), (height, width)."""
     camera = prepared.scene.camera
     depths = prepared.arithmetic.image(camera.height, camera.width)
     primitives = np.empty((camera.height, camera.width), dtype=np.int64)
@@ -78,8 +78,8 @@ def primary_rays(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]
     prepared = prepare(scene, FLOAT)
     frame = prepared.kernel.camera_frame(prepared.data)
     rays = [
-        [prepared.kernel.primary_ray(frame, column + 0.5, line + 0.5) for column in range(scene.camera.width)]
-        for line in range(scene.camera.height)
+        [prepared.kernel.primary_ray(frame, column + 0.5, row + 0.5) for column in range(scene.camera.width)]
+        for row in range(scene.camera.height)
     ]
     both: NDArray[np.float64] = np.array(rays)
     return both[:, :, 0], both[:, :, 1]

@@ -39,6 +39,9 @@ SHADOW_RAYS = "is_shadowed"
 
 NO_BOUND = "the value has no bound, or one too wide, at the highest precision, although no comparison is a tie"
 
+TOO_MANY = "together these can go more than 64 ways, too many to list"
+ONE_HAS_NO_BOUND = "one of the ways that this can go has no bound, so that none is listed"
+
 
 class UndecidedComparisonError(Exception):
     """A comparison whose outcome the balls leave open."""
@@ -72,9 +75,12 @@ def sentence(function: str, *, of_shadow_ray: bool) -> str:
     return f"{ray} {MEANINGS.get(function, f'makes a comparison in {function} an exact tie')}"
 
 
-def explanation(sentences: Iterable[str]) -> str:
-    """All ties of a pixel in one sentence."""
-    return "; ".join(sorted(sentences)) or NO_BOUND
+def explanation(sentences: Iterable[str], obstacle: str = "") -> str:
+    """All ties of a pixel in one sentence, and what keeps their outcomes from being listed."""
+    ties = sorted(sentences)
+    if not ties:
+        return NO_BOUND
+    return "; ".join([*ties, obstacle] if obstacle else ties)
 
 
 def _kernel_functions(frame: FrameType | None) -> list[str]:

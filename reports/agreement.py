@@ -40,23 +40,23 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Agreement:
-    """The references that were judged on one scene."""
+    """Which references agree with the truth, and with each other, on one scene."""
 
     names: tuple[str, ...]
     with_truth: tuple[Comparison, ...]
-    """Of each."""
+    """How each reference agrees with the truth."""
     pairs: dict[tuple[int, int], Comparison | None]
-    """By places in `names`, the smaller first; None where one has no image."""
+    """How two references agree, by their places in `names`, the smaller first; None where one has no image."""
     sentences: tuple[str, ...]
 
 
 def families(results: Results) -> dict[str, str]:
-    """The family of each renderer that is independent of the truth."""
+    """The project of each renderer that is independent of the truth, by the renderer's name."""
     return {record.name: record.family for record in results.renderers if record.family is not None}
 
 
 def confirming(results: Results) -> dict[str, tuple[str, ...]]:
-    """For each scene the families of which a cell passes and none fails, in alphabetical order.
+    """For each scene the projects that confirm its truth: a cell passes and none fails; in alphabetical order.
 
     What is as declared, not as due, confirms nothing.
     """

@@ -66,7 +66,7 @@ def print_matrix(results: Results, console: Console, report: Path | None = None)
 
 
 def _print_table(results: Results, console: Console) -> None:
-    """With the columns' names where they fit, else with numbers and a key."""
+    """Print the matrix, with the columns' names where they fit, else with numbers and a key."""
     names = [f"{renderer}/{integrator}" for renderer, integrator in columns(results)]
     stacked = [name.replace("/", "\n", 1) for name in names]
     widest_scene = max((cell_len(scene.name) for scene in results.scenes), default=0)

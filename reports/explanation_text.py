@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from raytruth.reports.wording import plural, printable
@@ -26,7 +27,7 @@ HIGHLIGHTS = {"phong": "(r·v)^n", "blinn": "(n·h)^n"}
 
 
 def explanation_text(explanation: Explanation, hexadecimal: bool = False) -> str:
-    """The tree as lines of text; numbers to six digits, or exactly as hexadecimal floats."""
+    """A ray tree as lines of text; numbers to six digits, or exactly as hexadecimal floats."""
     writer = _Writer(explanation, float.hex if hexadecimal else _six_digits)
     return "\n".join(writer.lines()) + "\n"
 
@@ -110,7 +111,8 @@ class _Writer:
             arriving = f"{factor}, {arriving}"
         yield INDENT + arriving
         if term.shadowed is None:
-            yield f"{INDENT}behind the surface (n·l <= 0): adds {self.vector(term.radiance)}"
+            where = "at this very point" if math.isnan(term.cosine) else "behind the surface (n·l <= 0)"
+            yield f"{INDENT}{where}: adds {self.vector(term.radiance)}"
         elif term.shadowed:
             blocker = f"primitive {term.occluder} (object {term.occluder_object})"
             yield f"{INDENT}in the shadow of {blocker}: adds {self.vector(term.radiance)}"

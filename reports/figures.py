@@ -40,7 +40,7 @@ class Album:
     pictures: dict[bytes, SharedPicture] = field(default_factory=dict)
 
     def add(self, png: bytes, width: int, height: int) -> SharedPicture:
-        """The picture's only copy."""
+        """Store the picture once on the page; the same content again gives the same shared picture."""
         new = SharedPicture(f"picture-{len(self.pictures) + 1}", data_uri(png), width, height)
         return self.pictures.setdefault(png, new)
 
@@ -97,7 +97,7 @@ def cell_figures(directory: Path, cell: Cell, album: Album) -> list[Figure]:
 
 @dataclass(frozen=True)
 class Source:
-    """Where the figures of a cell come from."""
+    """The truth and the render of a cell, as its figures need them."""
 
     directory: Path
     images: Images

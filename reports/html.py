@@ -35,7 +35,7 @@ REPORT_FILE = "report.html"
 
 @dataclass(frozen=True)
 class CellView:
-    """A cell with what the page adds to it."""
+    """A cell of the matrix as the page shows it, with its figures, its log and its pixels."""
 
     record: Cell
     anchor: str
@@ -53,7 +53,7 @@ class CellView:
 
 @dataclass
 class SceneView:
-    """A scene with its cells in the order of the matrix's columns; None where a cell was not run."""
+    """A row of the matrix: a scene with its cells in the order of the columns; None where a cell was not run."""
 
     record: SceneRecord
     anchor: str
@@ -62,7 +62,7 @@ class SceneView:
 
     @property
     def picture(self) -> SharedPicture | None:
-        """The truth, where at least one cell has it."""
+        """The picture of the truth; None where no cell has one."""
         figures = (figure for cell in self.cells if cell is not None for figure in cell.figures)
         return next((figure.shared for figure in figures if figure.shared is not None), None)
 

@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 
 PAGE_FILE = "faults.html"
 SHADES = 5
-"""Of the heat map: how many times further from passing, in steps of a factor of 100."""
+"""The number of shades of the heat map, each 100 times further from passing than the one before."""
 
 LARGEST_TOLD = 1e9
 """A margin beyond this is no more telling: where black is due the tolerance is next to nothing."""
 
 
 def summary(results: KillResults) -> str:
-    """One sentence."""
+    """The kill matrix in one sentence: how many faults are found, how many right variants flagged."""
     killed = sum(fault.killed for fault in results.faults)
     flagged = len(results.false_alarms)
     return (
@@ -38,7 +38,7 @@ def summary(results: KillResults) -> str:
 
 
 def gate_counts(results: KillResults) -> list[tuple[str, int, int]]:
-    """Each way of judging, how many faults it finds and how many legitimate variants it flags; ours first."""
+    """For each way of judging, ours first, how many faults it finds and how many legitimate variants it flags."""
     ours = sum(fault.killed for fault in results.faults), len(results.false_alarms)
     return [
         ("raytruth: every pixel in its feasible set", *ours),
@@ -76,14 +76,14 @@ def _state(fault: FaultResult) -> str:
 
 
 def margin(value: float | None) -> str:
-    """In tolerances, to two digits; infinite where there is none."""
+    """A margin in tolerances as a text of two digits; ∞ for None."""
     if value is None:
         return "∞"
     return f"{value:.2g}" if value <= LARGEST_TOLD else f">{LARGEST_TOLD:.0e}".replace("e+0", "e")
 
 
 def quick_seconds(results: KillResults) -> float:
-    """What the quick suite takes for one renderer."""
+    """How many seconds of processor time the quick suite takes for one renderer."""
     return sum(results.scenes[name] for name in results.quick)
 
 

@@ -14,7 +14,10 @@ _HEAD_BYTES = 4096
 
 
 def made_from(directory: Path) -> str:
-    """Of results.json, whether there is a kill matrix, names, sizes and times of the cells' files, and our own code."""
+    """A digest of all that a report is made from.
+
+    That are results.json, whether there is a kill matrix, the cells' files by names, sizes and times, and our own code.
+    """
     digest = hashlib.sha256((directory / RESULTS_FILE).read_bytes())
     digest.update(str((directory / PAGE_FILE).exists()).encode())
     for path in sorted((directory / "cells").rglob("*")):
@@ -26,7 +29,7 @@ def made_from(directory: Path) -> str:
 
 
 def is_made_from(page: Path, digest: str) -> bool:
-    """Whether the page is there and tells this digest."""
+    """Whether the page is there and was made from what has this digest."""
     try:
         with page.open("rb") as file:
             return digest.encode() in file.read(_HEAD_BYTES)

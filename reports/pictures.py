@@ -72,7 +72,7 @@ def signed_difference(render: FloatImage, truth: FloatImage) -> FloatImage:
 
 
 def largest_finite(values: FloatImage) -> float:
-    """The largest finite magnitude, 0 where there is none: the end of a scale."""
+    """The largest finite magnitude of an array, which ends a colour scale; 0 where there is none."""
     finite = np.abs(values[np.isfinite(values)])
     return float(finite.max()) if finite.size else 0.0
 

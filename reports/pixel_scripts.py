@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.records.results import Cell, Images
 
 FOLDER = "pixels"
-"""Beside the page."""
+"""The folder of scripts, beside the page."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class PixelView:
     """What the page needs to know of a cell's pixels before it loads their values."""
 
     address: str
-    """Of the script, relative to the page."""
+    """The script's path, relative to the page."""
     width: int
     height: int
     x: int

@@ -110,7 +110,7 @@ def cells_by_place(results: Results) -> dict[tuple[str, str, str], Cell]:
 
 
 def number(value: float | None) -> str:
-    """Three significant digits: plain between 0.001 and 9999, else with an exponent, as in 7.15e-6."""
+    """A number with three significant digits: plain between 0.001 and 9999, else with an exponent, as in 7.15e-6."""
     if value is None:
         return "–"
     if math.isnan(value):
@@ -126,7 +126,7 @@ def number(value: float | None) -> str:
 
 
 def exact(value: float) -> str:
-    """Nine significant digits: they tell any two float32 numbers apart (Matula 1968), a value from its bound too."""
+    """A number with nine digits, which tell any two float32 apart (Matula 1968), a value from its bound, too."""
     return f"{value:.9g}" if math.isfinite(value) else number(value)
 
 
@@ -136,7 +136,7 @@ def printable(text: str) -> str:
 
 
 def listed(names: Sequence[str]) -> str:
-    """`a`, `a and b`, `a, b and c`."""
+    """Names in a row as in a sentence: `a`, `a and b`, `a, b and c`."""
     return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names)
 
 

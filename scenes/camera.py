@@ -15,7 +15,7 @@ PixelCount = Annotated[int, Field(strict=True, ge=1, le=LARGEST_SIDE)]
 
 
 class CameraBase(Part):
-    """What both projections state. Right-handed axes; `up` need not be perpendicular to the view."""
+    """What both kinds of camera state. Axes are right-handed; `up` need not be perpendicular to the view."""
 
     position: Vector
     look_at: Vector

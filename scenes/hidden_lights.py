@@ -107,7 +107,7 @@ class _WholeNumbers:
         self.triangles: list[Triangle] = [(points[i], points[i + 1], points[i + 2]) for i in range(0, len(points), 3)]
         self.planes = [_plane(*corners) for corners in self.triangles]
         self.viewer = (self._scaled(camera.position), 1)
-        """Where all rays of the camera start, or the direction against which they go."""
+        """The point that all rays of the camera start from, or the direction against which they go."""
         if camera.projection == "orthographic":
             factor = _denominator((*camera.position, *camera.look_at))
             toward = [
@@ -117,7 +117,7 @@ class _WholeNumbers:
             self.viewer = ((toward[0], toward[1], toward[2]), 0)
 
     def light(self, light: Light) -> Homogeneous:
-        """Where it is, or the direction to it."""
+        """The place of a light, or the direction to it."""
         if isinstance(light, PointLight):
             return self._scaled(light.position), 1
         factor = -_denominator(light.direction)

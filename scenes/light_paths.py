@@ -39,7 +39,7 @@ LETTERS: dict[LightSource, str] = {"lights": "D", "rays": "S", "ambient light": 
 
 
 def whitted_class(scene: Scene) -> str:
-    """The paths that the scene's truth sums, as a regular expression."""
+    """The light paths that the scene's truth sums, as a regular expression over Heckbert's letters."""
     return WHITTED.format(depth=scene.max_depth)
 
 

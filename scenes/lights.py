@@ -50,7 +50,7 @@ class PointLight(Part):
 
 
 class DirectionalLight(Part):
-    """Parallel light: `direction` is the way it travels; `irradiance` is what a surface facing it receives."""
+    """Parallel light. `direction` is the way it travels; `irradiance` arrives on a surface that faces it."""
 
     kind: Literal["directional"]
     direction: Direction
@@ -67,7 +67,7 @@ class ConstantBackground(Part):
 
 
 class GradientBackground(Part):
-    """From `bottom` (straight down, -y) to `top` (straight up, +y), linear in the y of the unit direction."""
+    """Radiance that goes from `bottom` (straight down, -y) to `top` (straight up, +y), linear in the direction's y."""
 
     bottom: Color
     top: Color

@@ -45,7 +45,7 @@ further rays that it sends on, reflected or refracted; or the surface itself."""
 
 
 def colors_of(texture: Texture) -> tuple[Color, ...]:
-    """The colours that it shows somewhere: one, or the two of a checkerboard."""
+    """The colours that a texture shows somewhere: one, or the two of a checkerboard."""
     if isinstance(texture, CheckerboardColor):
         return texture.checkerboard.even, texture.checkerboard.odd
     return (texture,)
@@ -64,7 +64,7 @@ class Term(Part):
 
 
 class Ambient(Term):
-    """ka·Od: what the surface gives back of the ambient light."""
+    """The ambient term ka·Od: the part of the ambient light that the surface gives back."""
 
     light_from = "ambient light"
     is_classical = True
@@ -72,12 +72,12 @@ class Ambient(Term):
     reflectance: Color
 
     def features(self) -> frozenset[Feature]:
-        """Ambient light."""
+        """What a renderer must have: ambient light."""
         return frozenset({Feature.AMBIENT})
 
 
 class Diffuse(Term):
-    """kd·Od, the Lambertian reflectance."""
+    """The diffuse term kd·Od: Lambertian reflectance, ρ."""
 
     light_from = "lights"
     is_classical = False
@@ -85,12 +85,12 @@ class Diffuse(Term):
     reflectance: Texture
 
     def features(self) -> frozenset[Feature]:
-        """Diffuse reflection, and checkerboards for one."""
+        """What a renderer must have: diffuse reflection, and checkerboards if its reflectance is one."""
         return _texture_features(self.reflectance) | {Feature.DIFFUSE}
 
 
 class Specular(Term):
-    """ks·Os with an exponent: Phong's (r·v)^n or Blinn's (n·h)^n."""
+    """The highlight ks·Os with an exponent: Phong's (r·v)^n or Blinn's (n·h)^n."""
 
     light_from = "lights"
     is_classical = True
@@ -100,7 +100,7 @@ class Specular(Term):
     model: Literal["phong", "blinn"]
 
     def features(self) -> frozenset[Feature]:
-        """The highlight of its model."""
+        """What a renderer must have: the highlight of this model."""
         return frozenset({Feature.PHONG if self.model == "phong" else Feature.BLINN})
 
 
@@ -113,7 +113,7 @@ class Mirror(Term):
     reflectance: Color
 
     def features(self) -> frozenset[Feature]:
-        """Mirrors."""
+        """What a renderer must have: mirrors."""
         return frozenset({Feature.MIRRORS})
 
 
@@ -136,7 +136,10 @@ class Dielectric(Term):
     transmittance: Color | None = None
 
     def features(self) -> frozenset[Feature]:
-        """Dielectrics, and a constant split for one; whether its medium absorbs a ray is told by the whole scene."""
+        """What a renderer must have: dielectrics, and a constant split if it states one.
+
+        That a medium absorbs light is told by the whole scene: a ray must get into it.
+        """
         return frozenset({Feature.DIELECTRICS, *((Feature.CONSTANT_SPLIT,) if self.reflectance else ())})
 
     @model_validator(mode="after")
@@ -155,7 +158,7 @@ class Emission(Term):
     radiance: Texture
 
     def features(self) -> frozenset[Feature]:
-        """Emission, and checkerboards for one."""
+        """What a renderer must have: emission, and checkerboards if its radiance is one."""
         return _texture_features(self.radiance) | {Feature.EMISSION}
 
 
@@ -174,12 +177,12 @@ class Material(Part):
     emission: Emission | None = None
 
     def terms(self) -> dict[str, Term]:
-        """Those that it has, each by its key."""
+        """The terms that the material states, each by its key."""
         stated = ((key, getattr(self, key)) for key in type(self).model_fields)
         return {key: term for key, term in stated if term is not None}
 
     def light_from(self) -> frozenset[LightSource]:
-        """Where the light comes from that any of its terms sends to the viewer."""
+        """From where light comes that its terms send to the viewer, such as lights or mirrored rays."""
         return frozenset(term.light_from for term in self.terms().values())
 
     def features(self) -> frozenset[Feature]:

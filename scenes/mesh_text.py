@@ -51,7 +51,7 @@ def lines_of(content: bytes) -> Iterator[bytes]:
 
 
 def shown(*words: bytes) -> str:
-    """Words of a file in quotes, for a sentence; no more of them than a quote shows."""
+    """Words of a file as a sentence quotes them, in quotes and shortened."""
     longest = 4 * (LONGEST_QUOTE + 1)  # four bytes a character
     return quoted(b" ".join(word[:longest] for word in words[:longest])[:longest].decode("utf-8", "replace"))
 
@@ -83,7 +83,7 @@ def nearest_float32(word: bytes) -> float:
 
 
 def whole_number(word: bytes) -> int:
-    """A whole number of at most ten digits. Raises MeshFileError for any other word."""
+    """The whole number that a word of at most ten digits states. Raises MeshFileError for any other word."""
     if not _WHOLE_NUMBER.fullmatch(word):
         raise MeshFileError(f"expected a whole number of at most ten digits, found {shown(word)}.")
     return int(word)

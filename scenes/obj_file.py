@@ -71,7 +71,7 @@ class _Mesh:
 
 
 def read_obj(content: bytes) -> TriangleLists:
-    """Vertices and faces, polygons split into fans. Raises MeshFileError, which names the line."""
+    """Vertices and triangles of an OBJ file; polygons become fans. Raises MeshFileError, which names the line."""
     mesh = _Mesh()
     for line, words in _statements(without_byte_order_mark(content)):
         try:

@@ -33,7 +33,7 @@ _INTEGERS = frozenset(INTEGER_CODES.values())
 
 
 def read_ply(content: bytes) -> TriangleLists:
-    """Vertices and faces, polygons split into fans. Raises MeshFileError, which names the line or the row."""
+    """Vertices and triangles of a PLY file; polygons become fans. Raises MeshFileError, which names line or row."""
     header = read_header(content)
     vertex, corners = _our_properties({element.name: element for element in header.elements})
     vertices: list[tuple[float, float, float]] = []

@@ -40,7 +40,7 @@ _FIRST_LINE = re.compile(rb"ply[\t\v\f ]*(?:\r*(\n)|\r)")
 
 @dataclass(frozen=True)
 class Property:
-    """A number of each row, or a list of numbers."""
+    """A column of an element: a number in each row, or a list of numbers."""
 
     name: bytes
     code: str
@@ -51,14 +51,14 @@ class Property:
 
 @dataclass(frozen=True)
 class Element:
-    """A table; `count` rows with these properties."""
+    """A table of a PLY file, with `count` rows, each of which has these properties."""
 
     name: bytes
     count: int
     properties: list[Property]
 
     def names(self, *, lists: bool) -> set[bytes]:
-        """The names of its lists, or of its numbers."""
+        """The names of the element's lists if `lists`, else of its numbers."""
         return {property_.name for property_ in self.properties if (property_.length_code is not None) == lists}
 
 

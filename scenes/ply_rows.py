@@ -102,7 +102,7 @@ class _Cursor:
 
     body: bytes
     order: str
-    """Of bytes: `<` or `>`."""
+    """The order of bytes: `<` or `>`."""
     position: int = 0
 
     def skip(self, size: int) -> bool:

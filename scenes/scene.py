@@ -20,7 +20,7 @@ class Scene(Part):
     """A scene in one of two lighting conventions, `whitted` (unitless) or `radiometric` (docs/spec.md)."""
 
     name: str = ""
-    """From the file's name, not from its text."""
+    """The name of the scene's file without its ending; no text states it."""
     purpose: Annotated[str, Field(min_length=1)]
     """One sentence: what a renderer that gets this scene wrong has got wrong."""
     convention: Literal["whitted", "radiometric"]

@@ -41,5 +41,5 @@ def check_face_count(count: int) -> None:
 
 
 def fan(polygon: tuple[int, ...]) -> Faces:
-    """The triangles of a convex polygon: all share its first vertex."""
+    """The triangles that a convex polygon is split into: all share its first vertex."""
     return tuple((polygon[0], polygon[i], polygon[i + 1]) for i in range(1, len(polygon) - 1))

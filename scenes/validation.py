@@ -76,7 +76,7 @@ def _sentence(details: ErrorDetails, location: Location) -> str:
 
 
 def _tag_sentence(value: object, key: str, location: Location) -> str:
-    """For an object whose kind (shape, projection, …) is missing or unknown."""
+    """The sentence on an object whose kind (shape, projection, …) is missing or unknown."""
     tags = _tags_at(location, key)
     stated = value.get(key) if isinstance(value, dict) else None
     expected = f"expected a key {quoted(key)} with one of {', '.join(map(quoted, tags))}"

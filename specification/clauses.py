@@ -55,7 +55,7 @@ def clauses_of(root: Path, document: str) -> tuple[str, ...]:
 
 
 def all_clauses(root: Path) -> frozenset[str]:
-    """Of both documents."""
+    """The ids of all clauses: those of the specification and of the promises."""
     return frozenset((*clauses_of(root, SPECIFICATION), *clauses_of(root, PROMISES)))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.records.kill_results import RESULTS_FILE, read_kill_results
+from raytruth.comparisons.records.kill_results import KILLS_FILE, read_kill_results
 from raytruth.reference_tracer.arithmetics.instantiation import functions_of
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.requirements import required_features
@@ -19,7 +19,7 @@ def scenes_by_fault(directory: Path) -> dict[str, tuple[str, ...]]:
 
     Raises ValueError for a results file that is damaged.
     """
-    if not (directory / RESULTS_FILE).is_file():
+    if not (directory / KILLS_FILE).is_file():
         return {}
     return {fault.name: fault.killed_by for fault in read_kill_results(directory).faults}
 

@@ -48,14 +48,14 @@ class Traceability:
 
 
 def traceability(root: Path) -> Traceability:
-    """Of a checkout of the project. Raises SourceError for a file that cannot be read as Python."""
+    """The traceability of the project whose checkout is in `root`. Raises SourceError for a file that is not Python."""
     tests, faults = marked_tests(root), marked_faults(root)
     traces = tuple(_traces(root, tests, faults))
     return Traceability(traces, (*_uncovered(traces), *_stray(traces, tests, faults), *_outdated(root, traces)))
 
 
 def table_text(traces: tuple[Trace, ...]) -> str:
-    """The committed form."""
+    """The table of traces as the text of docs/traceability.md."""
     parts = [HEAD]
     for title, needs_fault in (("The specification", True), ("What the suite promises", False)):
         parts.append(f"## {title}\n")

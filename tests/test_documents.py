@@ -7,8 +7,7 @@ import re
 import tomllib
 from collections import Counter
 from importlib.metadata import metadata, requires
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from packaging.requirements import Requirement
@@ -17,11 +16,15 @@ from packaging.utils import canonicalize_name
 from raytruth.scenes.loading import load_scene
 from raytruth.scenes.schema import json_schema
 from raytruth.specification.clauses import PROMISES, SPECIFICATION, all_clauses, clauses_of
+from tests.rooms import FOLDERS, ROOMS, ROOT, sources
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 pytestmark = pytest.mark.clause("PRJ-2")
 
-ROOT = Path(__file__).parent.parent
 DOCUMENTS = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").glob("*.md"))]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 SCENE_FORMAT = (ROOT / "docs" / "scene-format.md").read_text(encoding="utf-8")
 
 SCHEMA = json_schema()
@@ -31,6 +34,10 @@ DEPENDENCIES = (ROOT / "docs" / "dependencies.md").read_text(encoding="utf-8")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 # The library in its wheel may be replaced by the user's own, as the LGPL asks; nothing of it is in our code.
 LESSER = {"python-flint"}
+
+# A file as it is named in a text: a Python file by its name alone, or by the end of its path, others by a path.
+FILE = re.compile(r"(?<![\w./$*-])(?:(?:[\w.-]+/)*[\w-]+\.py|(?:[\w.-]+/)+[\w-]+\.(?:json|md|jinja|js|css))\b")
+NOT_OURS = {"runtestsuites.py"}  # appleseed's
 
 ROW = re.compile(r"^\| `(\w+)` \| .+ \| (.+) \| .*\|$", re.MULTILINE)
 
@@ -91,6 +98,26 @@ def test_every_link_to_a_file_leads_somewhere(path: Path) -> None:
     links = re.findall(r"\]\(([^)\s]+)\)", path.read_text(encoding="utf-8"))
     local = [link.partition("#")[0] for link in links if "://" not in link]
     assert [link for link in local if not (path.parent / link).exists()] == []
+
+
+def test_the_folders_and_rooms_of_the_readme_are_those_that_are_there_in_their_order() -> None:
+    folders, rooms = re.findall(r"\| (?:folder|room) .+\n\|[-|]+\n((?:\|.+\n)+)", README)
+    assert tuple(re.findall(r"^\| `(\w+)/`", folders, re.MULTILINE)) == (*FOLDERS[:-1], "tests", FOLDERS[-1])
+    of_comparisons = [room.removeprefix("comparisons/") for room in ROOMS if room.startswith("comparisons/")]
+    assert re.findall(r"^\| `(\w+)/`", rooms, re.MULTILINE) == of_comparisons
+
+
+def test_every_file_that_a_document_or_a_comment_names_exists() -> None:
+    here = [path for folder in (*FOLDERS, "tests", "docs", "tools") for path in (ROOT / folder).rglob("*.*")]
+    endings = {"/".join(path.relative_to(ROOT).parts[start:]) for path in here for start in range(len(path.parts))}
+    named: dict[str, Path] = {}
+    for path in [*DOCUMENTS, *(ROOT / "tests").glob("*.md"), *sources()]:
+        mentions = FILE.findall(path.read_text(encoding="utf-8"))
+        named |= {mention: path for mention in mentions if mention.endswith(".py") or mention.split("/")[0] in FOLDERS}
+    assert "reference_tracer/source/illumination.py" in named
+    # In capitals is what a reader puts a name of his own for.
+    missing = {name: path for name, path in named.items() if name not in endings and not re.search(r"[A-Z]{4}", name)}
+    assert missing.keys() == NOT_OURS
 
 
 @pytest.mark.clause("PRJ-4")

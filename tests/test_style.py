@@ -24,6 +24,19 @@ TESTS = sorted((ROOT / "tests").rglob("*.py"))
 # A file that needs more has a second topic.
 MOST_LINES = 350
 
+# A function of more does not fit on a screen. Not counted is its docstring: a command's is its help text.
+MOST_LINES_OF_A_FUNCTION = 40
+SLAB = "test_the_mean_over_a_glass_slab_is_the_known_one_and_batches_and_pixels_are_independent"
+# By file and name, each with the reason why it is longer.
+LONGER_FUNCTIONS = {
+    ("tests/comparisons/renderers/mitsuba/test_adapter.py", SLAB): "one rendering of seconds, held against four laws",
+    ("tests/scenes/scene_files.py", "valid_scene"): "one scene, written down as data",
+    (
+        "tests/second_opinion/flat_glass.py",
+        "prism_at_the_critical_angle",
+    ): "one derivation, whose angles all of it shares",
+}
+
 # Joined here, so that this file may be searched, too.
 REGISTRY_HOSTS = ["py" + "pi.org", "python" + "hosted.org", "crates" + ".io", "npm" + "js.org", "deb." + "debian.org"]
 MACHINE_PATH = re.compile(r"(?<![\w.}])/(work|root|home|Users)/\w")
@@ -46,6 +59,27 @@ def relative(path: Path) -> str:
 @pytest.mark.parametrize("path", [*SOURCES, *TESTS], ids=relative)
 def test_a_file_is_short_enough_for_one_topic(path: Path) -> None:
     assert len(path.read_text(encoding="utf-8").splitlines()) <= MOST_LINES
+
+
+def long_functions(path: Path) -> set[str]:
+    """The functions and methods of a file that have more lines than they should, without their docstrings."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            docstring = lines_of(node.body[0]) if ast.get_docstring(node) else 0
+            if lines_of(node) - docstring > MOST_LINES_OF_A_FUNCTION:
+                found.add(node.name)
+    return found
+
+
+def lines_of(node: ast.stmt) -> int:
+    assert node.end_lineno is not None
+    return node.end_lineno - node.lineno + 1
+
+
+def test_a_function_fits_on_a_screen_or_has_a_reason() -> None:
+    longer = {(relative(path), name) for path in [*SOURCES, *TESTS] for name in long_functions(path)}
+    assert longer == LONGER_FUNCTIONS.keys()
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=relative)

@@ -49,7 +49,7 @@ def bounded_offset_behaviour(error_model: ErrorModel) -> Behaviour:
 
 
 def departure_within_bound(primitive: int, point: Vector, normal: Vector, direction: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - the signature of the function it stands for
-    """Anywhere near the surface, each coordinate by itself.
+    """Where a ray starts: anywhere in a box around the surface point, as wide as the bound, each coordinate by itself.
 
     One ray's start is independent of another's though they share these three numbers: each goes on as a bundle of its
     own (rounded_rays.py).
@@ -63,7 +63,7 @@ def departure_within_bound(primitive: int, point: Vector, normal: Vector, direct
 def is_shadowed_from_within_bound(
     scene: SceneData, primitive: int, point: Vector, normal: Vector, to_light: Vector, light_is_near: bool
 ) -> bool:
-    """A shadow ray's direction is that from the point, also where its start is moved.
+    """Whether a light is hidden, where a shadow ray's start may be moved, but its direction is that from the point.
 
     It surely starts on the point of a sphere, and of a triangle that it surely meets: by the products of Plücker
     coordinates, as in triangle_tests.pluecker_distance, but with the slack against the hit.

@@ -17,7 +17,7 @@ class RayOffset:
     """
 
     absolute: float = 0.0
-    """In units of the scene."""
+    """A length in units of the scene."""
     relative: float = 0.0
     along: Literal["normal", "direction"] = "normal"
     minimum_distance: float = 0.0
@@ -45,7 +45,7 @@ class RayOffset:
         return self.absolute > 0.0 or self.relative > 0.0
 
     def in_words(self) -> str:
-        """One clause."""
+        """The offset as a clause for people, as in `raytruth renderers`."""
         start = f"{self._length()} along the {self._vector()}" if self.moves_rays else "on the surface"
         start = f"up to {start}, to either side" if self.is_bound else start
         nearest = f", hits nearer than {self.minimum_distance:.3g} are ignored" if self.minimum_distance > 0.0 else ""
@@ -74,7 +74,7 @@ class Rasterisation:
     """As `precision_bits` of the error model, of the lighting equation: slack for another order of it included."""
 
     def in_words(self) -> str:
-        """One clause."""
+        """The rasterisation as a clause for people, as in `raytruth renderers`."""
         grid = f"with corners snapped to 2^-{self.subpixel_bits} of a pixel"
         buffer = f"in a z-buffer of {self.depth_bits} bits between planes tight around what is seen"
         return f"triangles {grid}, {buffer}; an operation of their light errs by at most 2^-{self.light_bits}"
@@ -108,7 +108,7 @@ class ErrorModel:
     image_radius: float = 0.0
     """A pixel's ray may go through any point within so many pixels of its centre, in x and in y."""
     rasterisation: Rasterisation | None = None
-    """Where triangles are drawn rather than rays traced."""
+    """How triangles are drawn; None where rays are traced."""
     output: OutputModel = field(default_factory=OutputModel)
     random_choices: str = ""
     """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""
@@ -127,13 +127,13 @@ class ErrorModel:
             raise ValueError("a shadow tolerance is at least the least distance of hits, and excludes no surface")
 
     def of_light(self) -> ErrorModel:
-        """That of colours, where another is that of first hits."""
+        """The error model of colours: a rasteriser's light has an arithmetic of its own, other than its hits have."""
         if self.rasterisation is None or self.rasterisation.light_bits == self.precision_bits:
             return self
         return replace(self, precision_bits=self.rasterisation.light_bits)
 
     def in_words(self) -> dict[str, str]:
-        """Each field as a clause, by what it is about."""
+        """Each field as a clause for people, by the heading that it stands under in `raytruth renderers`."""
         shortened = f"{self.shadow_shortening:.3g} of the distance before the light"
         around = f"within {self.image_radius:.3g} pixels of a pixel's centre, in x and in y"
         near = f"{self.shadow_tolerance:.3g} from the surface or the light may throw a shadow or none"

@@ -71,7 +71,7 @@ def pluecker_product(edge: Vector, start: Vector, end: Vector, direction: Vector
 
 
 def pluecker_products(a: Vector, b: Vector, c: Vector, direction: Vector) -> Vector:
-    """Those of the three edges of a triangle; all have one sign where the ray meets the triangle, or its line does."""
+    """The Plücker products of a triangle's three edges; all have one sign where the ray, or its line, meets it."""
     u = pluecker_product(subtract(c, a), a, c, direction)
     v = pluecker_product(subtract(a, b), b, a, direction)
     return u, v, pluecker_product(subtract(b, c), c, b, direction)

@@ -37,7 +37,7 @@ CURVE_ROUNDOFFS = 32
 
 @dataclass(frozen=True)
 class OutputModel:
-    """What becomes of radiance in the file. Raises ValueError for integers that are not clipped."""
+    """The numbers that a renderer writes for a radiance. Raises ValueError for integers that are not clipped."""
 
     numbers: Literal["uint8", "uint16", "float16", "float32", "float64"] = "float32"
     transfer: Literal["linear", "sRGB"] = "linear"
@@ -66,12 +66,12 @@ class OutputModel:
         return self._end_read(np.asarray(low, np.float64), -1), self._end_read(np.asarray(high, np.float64), 1)
 
     def linear_values(self, written: ArrayLike) -> Array:
-        """What is read from codes or numbers of a file: linear values, where 1 is the largest code of integers."""
+        """The linear values that a file's codes or numbers stand for; the largest code of integers is 1."""
         values = np.asarray(written, np.float64) / LARGEST_CODES.get(self.numbers, 1)
         return srgb_decoded(values) if self.transfer == "sRGB" else values
 
     def in_words(self) -> str:
-        """One clause."""
+        """The output as a clause for people, as in `raytruth renderers`."""
         clipping = "clipped to [0, 1]" if self.clipped else "not clipped"
         if self.bracketed:
             clipping = "at the brightest of the exposures 1, 1/2, 1/4, … that does not clip"

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
-    """The same arithmetic with rays that start on the surface and shadow rays that end at the light."""
+    """The error model without its shortcuts: rays start on the surface, shadow rays end at the light."""
     return replace(error_model, ray_offset=RayOffset(), shadow_shortening=0.0, shadow_tolerance=0.0)
 
 
@@ -48,7 +48,7 @@ def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
 
 
 def _largest_coordinate(scene: Scene) -> float:
-    """Of any point that a ray may leave."""
+    """The largest absolute coordinate of any point that a ray may leave."""
     reaches = [
         np.abs(shape.center) + shape.radius if isinstance(shape, Sphere) else np.abs(shape.vertices)
         for shape in scene.objects

@@ -39,10 +39,10 @@ def jittered_rays() -> None:
     "first_hit_rows",
     "Along which line is the depth of a pixel measured?",
     Edit(
-        "depths[line, column] = distance",
+        "depths[row, column] = distance",
         """
         _, _, _, _, forward = frame
-        depths[line, column] = distance * dot(direction, forward)
+        depths[row, column] = distance * dot(direction, forward)
         """,
     ),
     gives="first hits",

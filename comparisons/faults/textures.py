@@ -10,7 +10,7 @@ from raytruth.comparisons.faults.fault import fault
     "TEX-1",
     "is_even_square",
     "Which colour has the square at the board's own origin?",
-    Edit("(column + line) % 2 == 0", "(column + line) % 2 != 0"),
+    Edit("(column + row) % 2 == 0", "(column + row) % 2 != 0"),
 )
 def even_and_odd_exchanged() -> None:
     """The two colours of the checkerboard are exchanged."""

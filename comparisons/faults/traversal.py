@@ -78,7 +78,7 @@ def material_of_the_neighbour() -> None:
     "TRAV-2",
     "first_hit_rows",
     "Which number has the first primitive?",
-    Edit("primitives[line, column] = primitive", "primitives[line, column] = primitive + 1"),
+    Edit("primitives[row, column] = primitive", "primitives[row, column] = primitive + 1"),
     gives="first hits",
 )
 def primitives_numbered_from_one() -> None:

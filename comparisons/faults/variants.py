@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.faults.edits import Function
 
 # Of float32's 24 bits two, for exponentials, tangents and powers from the mathematical library.
-FLOAT32 = ErrorModel("float32 with 2 bits for the mathematical library", precision_bits=22)
+FLOAT32_MODEL = ErrorModel("float32 with 2 bits for the mathematical library", precision_bits=22)
 # Far above the rounding of float64 in scenes of this size, and far below what can be seen.
 OFFSET = other_starts.OFFSET
 
@@ -86,11 +86,11 @@ def _ray_starts() -> list[Subject]:
 
 def _number_formats() -> list[Subject]:
     return [
-        _variant("float32", "Everything is computed in float32.", declares=FLOAT32, numbers="float32"),
+        _variant("float32", "Everything is computed in float32.", declares=FLOAT32_MODEL, numbers="float32"),
         _variant(
             "float32, 8 bits written",
             "Everything is computed in float32 and written as an 8-bit sRGB picture.",
-            declares=replace(FLOAT32, output=OutputModel("uint8", "sRGB", clipped=True)),
+            declares=replace(FLOAT32_MODEL, output=OutputModel("uint8", "sRGB", clipped=True)),
             numbers="float32",
             finish=_as_bytes,
         ),

@@ -32,15 +32,15 @@ class Outcomes:
 
 
 def all_due(color: Colors | None) -> Outcomes:
-    """Outcomes that are what the pixel is due, as far as one can see."""
+    """Outcomes for a pixel's feasible colours, all of them taken for due; none where nothing is known of the pixel."""
     boxes = [bounds_of(box) for box in color.boxes] if color else []
     return Outcomes(boxes, [True] * len(boxes), color is not None and color.merged)
 
 
 def may_look_different(color: Colors, pixel: Pixel, truth: CertifiedImage | None) -> bool:
-    """Whether a declared outcome may visibly differ from the truth, or none of them holds it.
+    """Whether some declared outcome may visibly differ from the truth, or none of them holds it.
 
-    Where the truth is not known, or tied, that may be so.
+    True where the truth is not known, or a tie.
     """
     column, row = pixel
     if truth is None or not truth.decided[row, column]:
@@ -53,7 +53,10 @@ def may_look_different(color: Colors, pixel: Pixel, truth: CertifiedImage | None
 
 
 def proven(pixel: Pixel, truth: CertifiedImage | None) -> Outcomes:
-    """The truth, which is due where the arithmetic without its shortcuts leaves everything open; none if unknown."""
+    """The pixel's proven value as its one outcome, which is due; no outcome where that value is unknown or a tie.
+
+    It stands in where the arithmetic leaves everything open even without its shortcuts.
+    """
     column, row = pixel
     if truth is None or not truth.decided[row, column]:
         return Outcomes([], [], merged=False)
@@ -63,7 +66,7 @@ def proven(pixel: Pixel, truth: CertifiedImage | None) -> Outcomes:
 
 
 def beside_what_is_due(declared: Outcomes, due: Outcomes) -> Outcomes:
-    """What is due, and behind it the declared outcomes that are not part of it; these alone if nothing is known."""
+    """All outcomes of a pixel: what is due, then the declared ones outside of that; these alone if none is due."""
     if not due.boxes:
         return declared
     others = [box for box in declared.boxes if not any(_is_in(box, other) for other in due.boxes)]
@@ -72,7 +75,7 @@ def beside_what_is_due(declared: Outcomes, due: Outcomes) -> Outcomes:
 
 
 def hits_beside_what_is_due(declared: list[FirstHit] | None, due: list[FirstHit] | None) -> DueHits:
-    """First hits that are due, and behind them the declared ones of other primitives; none where nothing is known."""
+    """All first hits of a pixel: those due, then declared ones of other primitives; none where either is unknown."""
     if declared is None or due is None:
         return []
     primitives = {hit.primitive for hit in due}
@@ -80,7 +83,7 @@ def hits_beside_what_is_due(declared: list[FirstHit] | None, due: list[FirstHit]
 
 
 def bounds_of(balls: Iterable[Any]) -> Bounds:
-    """The balls' ends, widened by float64's own rounding."""
+    """The ends of each ball, below and above, widened by what float64 rounds."""
     bounds = []
     for ball in balls:
         middle, radius = float(ball.mid()), float(ball.rad())

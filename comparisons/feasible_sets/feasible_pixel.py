@@ -53,7 +53,7 @@ class PixelEvaluator:
         self.may_merge = True
         self._primary: tuple[tuple[int, int], tuple[Any, Any]] | None = None
 
-    def colors(self, column: int, line: int, *, may_merge: bool = True) -> tuple[list[Box], bool]:
+    def colors(self, column: int, row: int, *, may_merge: bool = True) -> tuple[list[Box], bool]:
         """The boxes of a pixel's feasible colours, and whether there were too many to tell apart.
 
         Raises UndecidableError, also where one box spans more than half of all that a ray of the scene may bring: such
@@ -61,18 +61,18 @@ class PixelEvaluator:
         """
         self.merged, self.may_merge = False, may_merge
         with self.rays.prepared.arithmetic.in_force():
-            origin, direction = self._primary_ray(column, line)
+            origin, direction = self._primary_ray(column, row)
             white = (arb(1), arb(1), arb(1))
             boxes = self._outcomes((origin, direction, white, NOTHING, self.medium, self.depth), MOST_OUTCOMES)
         if self.bound is not None and 2 * widest(boxes) > self.bound.at_camera / 2:
             raise UndecidableError
         return boxes, self.merged
 
-    def first_hits(self, column: int, line: int) -> list[FirstHit]:
+    def first_hits(self, column: int, row: int) -> list[FirstHit]:
         """What the pixel's ray may meet first. Raises UndecidableError."""
         try:
             with self.rays.prepared.arithmetic.in_force():
-                origin, direction = self._primary_ray(column, line)
+                origin, direction = self._primary_ray(column, row)
                 hits = every_outcome(lambda: self.rays.first_hit(origin, direction), self.rays.decisions, MOST_OUTCOMES)
                 found = [FirstHit(*hit) for hit in hits]
         except TooManyOutcomesError as error:
@@ -81,10 +81,10 @@ class PixelEvaluator:
             raise UndecidableError  # a triangle seen edge on may be met anywhere
         return found
 
-    def _primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+    def _primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
         """The very same for a pixel's colours and first hits, which makes it cheaper to meet."""
-        if self._primary is None or self._primary[0] != (column, line):
-            self._primary = (column, line), self.rays.primary_ray(column, line)
+        if self._primary is None or self._primary[0] != (column, row):
+            self._primary = (column, row), self.rays.primary_ray(column, row)
         return self._primary[1]
 
     def _outcomes(self, ray: Any, most: int) -> list[Box]:
@@ -128,7 +128,7 @@ class PixelEvaluator:
         return local, [(*child[:2], _common(child[2], most), *child[3:]) for child in children]
 
     def _anything(self, weight: Box) -> Box:
-        """From black to the weight times the brightest radiance."""
+        """The box of all that a ray of this weight can bring: from black to the weight times the brightest radiance."""
         if self.bound is None:
             raise UndecidableError
         return self._from_black(weight, self.bound.radiance * self.excess)
@@ -168,5 +168,5 @@ def _common(box: Box, possible: Box) -> Box:
 
 
 def widest(boxes: list[Box]) -> float:
-    """The largest radius of any ball."""
+    """The largest radius of any channel of any box, a half width."""
     return max(float(channel.rad()) for box in boxes for channel in box)

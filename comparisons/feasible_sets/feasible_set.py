@@ -71,9 +71,10 @@ class FeasibleSet:
         return counts
 
     def hull(self, *, due_only: bool = False) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The least box that holds all outcomes of each pixel; NaN where there are none; shape (height, width, 3).
+        """The least box that holds all outcomes of a pixel: low and high ends, shape (height, width, 3) each.
 
-        Or all outcomes that are due; every pixel with an outcome has one of these.
+        With `due_only`, all outcomes that are due; every pixel with an outcome has one of these. NaN where there are
+        none.
         """
         counted = self.due[..., np.newaxis] if due_only else True
         with warnings.catch_warnings():
@@ -101,7 +102,8 @@ def feasible_set(
 
     They hold what the declared model may give, and what its arithmetic alone may give without the shortcuts that it
     declares: that is due, and holds the truth. With `truth`, the scene's certified image, the latter is found only
-    where it may look different, which is much quicker.
+    where a declared outcome may look different from the truth or none holds it, which is much quicker. Elsewhere all
+    that is declared counts as due.
     Without colours only the feasible sets of first hits are made, and no pixel has an outcome.
     Raises ValueError for a behaviour that changes what the error model changes, too.
     """

@@ -38,7 +38,7 @@ FEASIBLE_SET_ROOMS = (
 
 
 def kept_feasible_set(scene: Scene, error_model: ErrorModel, *, with_colors: bool = True) -> FeasibleSet:
-    """As `feasible_set`: the one from the cache if neither the scene, the error model nor our code has changed since.
+    """The `feasible_set` from the cache, or made now if the scene, the error model or our code has changed since.
 
     There is one place in the cache for each scene's name and error model, so that it does not grow with each change.
     """
@@ -53,7 +53,7 @@ def kept_feasible_set(scene: Scene, error_model: ErrorModel, *, with_colors: boo
 
 
 def feasible_set_key(scene: Scene) -> str:
-    """Of all that the feasible sets of a scene depend on but the error model, which names their place."""
+    """A digest of all that the feasible sets of a scene depend on but the error model, which is in the file's name."""
     code = source_digest(*FEASIBLE_SET_ROOMS)
     return _digest(scene.model_dump_json(), code, flint.__version__, flint.__FLINT_VERSION__, np.__version__)
 

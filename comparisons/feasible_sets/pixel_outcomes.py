@@ -48,7 +48,7 @@ class PixelOutcomes:
     def colors_and_hits(
         self, pixels: Sequence[Pixel], *, with_colors: bool = True, with_hits: bool = True, brightest: float = 0.0
     ) -> tuple[list[Colors | None], list[list[FirstHit] | None]]:
-        """Of each pixel its colours and its first hits; None where nothing can be said, or what is not asked for.
+        """The colours and the first hits of each pixel; None where nothing can be said, and for what is not asked for.
 
         All pixels are evaluated in plain balls; in linked ones those of which plain ones say nothing, or cannot tell
         all outcomes apart, and those whose boxes are wide beside the image's brightest value, which is at least
@@ -79,7 +79,7 @@ class PixelOutcomes:
 
 
 def brightest_of(colors: list[Colors | None]) -> float:
-    """The largest value of the image, as far as it is known."""
+    """The largest value of a channel among the known colours; 0 if none is known."""
     known = [box for color in colors if color for box in color.boxes]
     return max((float(channel.mid()) for box in known for channel in box), default=0.0)
 

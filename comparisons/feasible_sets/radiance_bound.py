@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RadianceBound:
-    """What no ray of a scene can exceed."""
+    """The largest radiance that rays of a scene can bring back."""
 
     radiance: float
     """The brightest that a ray can bring, in any medium."""

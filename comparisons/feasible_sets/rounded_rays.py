@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 Box = tuple[Any, Any, Any]
 """A ball for each channel."""
 Ray = tuple[Any, ...]
-"""As in reference_tracer/source/ray_tree.py: numbers of the way chosen, except the weight, which is a box."""
+"""A ray as in reference_tracer/source/ray_tree.py, in balls or linked balls; its weight is always a box."""
 
 
 class RoundedRays(Protocol):
@@ -44,7 +44,7 @@ class RoundedRays(Protocol):
     prepared: PreparedScene
     decisions: Decisions
 
-    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
+    def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
         """Origin and direction through the centre of a pixel, or any point as near to it as the error model says."""
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
@@ -73,18 +73,18 @@ class PlainRays:
             self._primary_ray = camera.kernel.primary_ray
             self._frame = camera.kernel.camera_frame(camera.data)
 
-    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
-        """As the protocol says."""
-        x, y = arb(column + 0.5, self._image_radius), arb(line + 0.5, self._image_radius)
+    def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
+        """Origin and direction as balls, through the centre of a pixel or near it, as the error model says."""
+        x, y = arb(column + 0.5, self._image_radius), arb(row + 0.5, self._image_radius)
         return self._primary_ray(self._frame, x, y)
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
-        """As the protocol says."""
+        """What a ray brings by itself, as balls, and the rays that go on from its end."""
         children: list[Ray] = []
         return self.prepared.kernel.trace_ray(self.prepared.data, ray, children), children
 
     def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
-        """As the protocol says."""
+        """The primitive that a primary ray meets (-1: none), and balls for distance, position and normal."""
         return first_hit(self.prepared, origin, direction)
 
 
@@ -104,18 +104,18 @@ class LinkedRays:
             numbers = iter(condensed([number for vector in frame for number in vector]))
             self._frame = tuple((next(numbers), next(numbers), next(numbers)) for _ in frame)
 
-    def primary_ray(self, column: int, line: int) -> tuple[Any, Any]:
-        """As the protocol says."""
+    def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
+        """Origin and direction as linked balls, through the centre of a pixel or near it, as the error model says."""
         ball = self.prepared.arithmetic.functions["ball"]
         if self._exact_rays is not None:
-            origin, direction = self._exact_rays.primary_ray(column, line)
+            origin, direction = self._exact_rays.primary_ray(column, row)
             return tuple(map(ball, origin)), tuple(map(ball, direction))
-        x, y = (ball(arb(center + 0.5, self._image_radius)) for center in (column, line))
+        x, y = (ball(arb(center + 0.5, self._image_radius)) for center in (column, row))
         origin, direction = self.prepared.kernel.primary_ray(self._frame, x, y)
         return _condensed_ray(origin, direction)
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
-        """As the protocol says."""
+        """What a ray brings by itself, as balls, and the rays that go on from its end, in linked balls."""
         kernel, arithmetic = self.prepared.kernel, self.prepared.arithmetic
         origin, direction, weight, *rest = ray
         linked_weight = tuple(arithmetic.functions["ball"](channel) for channel in weight)
@@ -125,7 +125,7 @@ class LinkedRays:
         return _box(local), [(*_condensed_ray(child[0], child[1]), _box(child[2]), *child[3:]) for child in children]
 
     def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
-        """As the protocol says."""
+        """The primitive that a primary ray meets (-1: none), and balls for distance, position and normal."""
         primitive, values = first_hit(self.prepared, origin, direction)
         return primitive, tuple(enclosure(value) for value in values)
 
@@ -138,16 +138,22 @@ def _exact_camera(scene: Scene, error_model: ErrorModel) -> PreparedScene | None
 
 
 def store_indices(prepared: PreparedScene, bits: int | None) -> None:
-    """Put what a renderer stores for indices of refraction into the tables: rounded to so few bits, or as they are."""
+    """Put into the tables what a renderer with so few bits may take for an index of refraction; None: as all numbers.
+
+    That is anything from the index to what it is rounded to: so the feasible sets hold the truth, too, whose index is
+    not rounded.
+    """
     if bits is None:
         return
+    linked = prepared.arithmetic.functions.get("ball")
     exact = prepare(prepared.scene, FLOAT).data.numbers
     for table in (MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX):
         first = prepared.data.integers[table]
         for place in range(first, first + rows_of(prepared.data, table)):
             mantissa, exponent = math.frexp(exact[place])
             rounded = math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits)
-            prepared.data.numbers[place] = prepared.arithmetic.number(rounded)
+            both = arb(exact[place]).union(arb(rounded))
+            prepared.data.numbers[place] = linked(both) if linked else both
 
 
 class RememberedHit:
@@ -160,7 +166,7 @@ class RememberedHit:
         self.hit: tuple[Any, int] = (None, NOTHING)
 
     def __call__(self, data: Any, origin: Any, direction: Any, left: int) -> tuple[Any, int]:
-        """That of the last camera ray, if it is asked for again and nothing was undecided."""
+        """The nearest hit: the last camera ray's, if it is asked for again and no comparison was undecided."""
         if origin is self.ray[0] and direction is self.ray[1]:
             return self.hit
         before = self.decisions.position
@@ -171,7 +177,7 @@ class RememberedHit:
 
 
 def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
-    """What a ray meets first: its number, and seven numbers for distance, position and normal; none for nothing."""
+    """The primitive that a ray meets first, and seven numbers for distance, position and normal; (-1, ()) for none."""
     kernel, data = prepared.kernel, prepared.data
     distance, primitive = kernel.nearest_hit(data, origin, direction, NOTHING)
     if primitive == NOTHING:

@@ -19,7 +19,7 @@ MOST_LISTED = 1000
 def as_declared(
     image: NDArray[np.float32], truth: NDArray[np.float64], by_shortcut: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
-    """Which of the pixels that only a shortcut explains one could tell from the truth; shape (height, width)."""
+    """Which pixels are as declared, not as due: only a shortcut explains them, and one sees it; (height, width)."""
     declared: NDArray[np.bool_] = by_shortcut & differs_visibly(image, truth).any(axis=2)
     return declared
 
@@ -27,7 +27,7 @@ def as_declared(
 def declared_pixels(
     image: NDArray[np.float32], truth: NDArray[np.float64], declared: NDArray[np.bool_]
 ) -> DeclaredPixels | None:
-    """How many pixels are as declared, not as due, and which, and how far from the truth; None if there are none."""
+    """The count of pixels that are as declared, which they are, and how far they are from the truth; None for none."""
     if not declared.any():
         return None
     with np.errstate(invalid="ignore"):  # of two infinities

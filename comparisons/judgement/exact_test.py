@@ -21,7 +21,7 @@ UNJUDGED = -1.0
 
 @dataclass(frozen=True)
 class NearestOutcomes:
-    """Of each pixel the outcome that its value lies in or nearest to."""
+    """For each pixel the outcome that its value lies in, or else is nearest to."""
 
     places: NDArray[np.int64]
     """Its place among the pixel's outcomes, shape (height, width)."""
@@ -70,7 +70,7 @@ def distances_in_tolerances(image: ArrayLike, feasible: FeasibleSet) -> NDArray[
 def judge_image(
     image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet
 ) -> tuple[Judgement, NearestOutcomes]:
-    """The counts and the worst pixel, and where each pixel's value lies."""
+    """Judge an image of shape (height, width, 3): counts and worst pixel, and where each pixel's value lies."""
     nearest = nearest_outcomes(image, feasible)
     declared = as_declared(image, truth, nearest.by_shortcut())
     return judgement_of(nearest.in_tolerances(), image, truth, feasible, declared), nearest
@@ -83,7 +83,7 @@ def judgement_of(
     feasible: FeasibleSet,
     declared: NDArray[np.bool_],
 ) -> Judgement:
-    """The counts and the worst pixel of an image whose pixels have these distances, shape (height, width).
+    """The judgement of an image by its pixels' distances in tolerances, shape (height, width).
 
     `declared`, of the same shape, says which pixels are as declared, not as due.
     """
@@ -99,7 +99,7 @@ def judgement_of(
 
 
 def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasible: FeasibleSet) -> float:
-    """The largest absolute difference of a channel over the judged pixels: from the truth or the nearest outcome that is due."""
+    """The largest difference of a channel over the judged pixels: from the truth, or from the nearest due outcome."""
     value = np.asarray(image, dtype=np.float64)
     from_truth = np.abs(value - truth)
     middles = np.where(feasible.due[..., np.newaxis], 0.5 * (feasible.low + feasible.high), np.nan)

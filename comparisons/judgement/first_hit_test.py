@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def judge_first_hits(hits: FirstHits, feasible: FeasibleSet) -> FirstHitComparison:
-    """The first hits against their feasible sets: primitive, distance, position and normal of one outcome must fit."""
+    """Compare first hits with their feasible sets: primitive, distance, position, normal must fit one outcome."""
     with np.errstate(invalid="ignore"):
         values = np.concatenate([hits.depth[..., np.newaxis], hits.position, hits.normal], axis=2)
     places = feasible.hit_primitives != UNUSED

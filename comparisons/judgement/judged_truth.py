@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def judged_truth(scene: Scene) -> NDArray[np.float64]:
-    """Linear RGB of shape (height, width, 3): the middles of the certified image's enclosures.
+    """The truth as images are compared with it: the middles of certified enclosures, linear RGB (height, width, 3).
 
     Where a pixel is undecided it is the outcome next to the value of the float64 image, if any outcome is known, and
     else that value.
@@ -25,8 +25,8 @@ def judged_truth(scene: Scene) -> NDArray[np.float64]:
     truth = image.middle.copy()
     if image.undecided:
         rounded = np.asarray(render(scene), dtype=np.float64)
-        for (column, line), reason in image.undecided.items():
-            value = rounded[line, column]
+        for (column, row), reason in image.undecided.items():
+            value = rounded[row, column]
             outcomes = [outcome.middle for outcome in reason.outcomes] or [value]
-            truth[line, column] = min(outcomes, key=lambda outcome: float(np.abs(value - outcome).max()))
+            truth[row, column] = min(outcomes, key=lambda outcome: float(np.abs(value - outcome).max()))
     return truth

@@ -32,14 +32,19 @@ FROM_WORST = (Verdict.FAIL, Verdict.INCOMPARABLE, Verdict.DECLARED, Verdict.PASS
 
 
 def together(image: tuple[Verdict, str], first_hits: tuple[Verdict, str]) -> tuple[Verdict, str]:
-    """The verdict on a cell that gives both, and the reasons of those parts that do not pass."""
+    """The verdict on a cell from those on its image and on its first hits, with the reasons of what does not pass."""
     worst = min(image[0], first_hits[0], key=FROM_WORST.index)
     reasons = [reason for verdict, reason in (first_hits, image) if verdict != Verdict.PASS]
     return worst, "; ".join(reasons) or image[1]
 
 
+def with_shortcuts(verdict: Verdict, reason: str, shortcuts: str) -> tuple[Verdict, str]:
+    """The same; how large the shortcuts are in the scene is told where they matter."""
+    return verdict, f"{reason}; {shortcuts}" if verdict == Verdict.DECLARED else reason
+
+
 def unjudged_in_words(unjudged: int, all_of_them: int, noun: str) -> str:
-    """Why too few could be judged."""
+    """The reason of a cell too many of whose pixels, or first hits, cannot be judged."""
     return f"{unjudged} of {all_of_them} {noun} cannot be judged, since this arithmetic leaves everything open there"
 
 

@@ -32,78 +32,83 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Evidence:
-    """What a scene's cells are judged by."""
+class Expectation:
+    """What is expected of a scene's images from renderers of one error model."""
 
     scene: Scene
     truth: NDArray[np.float64]
+    """The true colour of each pixel, shape (height, width, 3)."""
     rays: Rays
+    """The ray through the centre of each pixel."""
     feasible: FeasibleSet
     bound: RadianceBound | None
-    """On what any ray can bring back; None where none is known, and so no random samples can be judged."""
+    """The largest radiance that any ray can bring back. None where none is known: random samples cannot be judged."""
     shortcuts: str = ""
     """How large the shortcuts of the error model are in this scene, in words; empty where there are none."""
 
 
-def gather_evidence(scene: Scene, truth: NDArray[np.float64], feasible: FeasibleSet, shortcuts: str = "") -> Evidence:
-    """The evidence for a truth, shape (height, width, 3), and a feasible set of the scene."""
-    return Evidence(scene, truth, Rays(*primary_rays(scene)), feasible, radiance_bound(scene), shortcuts)
+def expectation_of(scene: Scene, truth: NDArray[np.float64], feasible: FeasibleSet, shortcuts: str = "") -> Expectation:
+    """What is expected of images of a scene, from its truth, shape (height, width, 3), and its feasible set."""
+    return Expectation(scene, truth, Rays(*primary_rays(scene)), feasible, radiance_bound(scene), shortcuts)
 
 
 @dataclass(frozen=True)
-class Judged:
-    """What came of an image."""
+class ImageVerdict:
+    """The verdict on one image, and what it rests on."""
 
     judgement: Judgement
     test: StochasticTest | None
+    """None for an image that was made without random numbers."""
     verdict: Verdict
     reason: str
     distances: NDArray[np.float64]
-    """Shape (height, width, 3)."""
+    """How far each value is from what it may be, in tolerances, shape (height, width, 3); up to 1 it is feasible."""
     pixels: PixelEvidence
 
 
-def judge_exact(image: Image, evidence: Evidence) -> Judged:
-    """Each pixel of an image without random numbers against its feasible set."""
-    feasible = evidence.feasible
-    judgement, nearest = judge_image(image, evidence.truth, feasible)
-    declared = as_declared(image, evidence.truth, nearest.by_shortcut())
+def judge_exact(image: Image, expectation: Expectation) -> ImageVerdict:
+    """Judge an image that was made without random numbers: each pixel must lie in its feasible set."""
+    feasible = expectation.feasible
+    judgement, nearest = judge_image(image, expectation.truth, feasible)
+    declared = as_declared(image, expectation.truth, nearest.by_shortcut())
     pixels = pixel_evidence(feasible.low, feasible.high, nearest.places, feasible.merged, declared)
-    return Judged(judgement, None, *verdict_of(judgement), nearest.distances, pixels)
+    return ImageVerdict(judgement, None, *verdict_of(judgement), nearest.distances, pixels)
 
 
-def judge_noisy(rendering: Rendering, evidence: Evidence) -> Judged:
-    """The mean of many samples against the hull of each pixel's feasible set."""
+def judge_noisy(rendering: Rendering, expectation: Expectation) -> ImageVerdict:
+    """Judge means of random samples: each pixel's expected value must lie in the hull of its feasible set."""
     assert rendering.image is not None
     assert rendering.batch_means is not None
-    bound = evidence.bound
+    bound = expectation.bound
     assert bound is not None, "comparability.py lets no stochastic scene through without a bound"
-    unjudged = evidence.feasible.outcomes == 0
+    unjudged = expectation.feasible.outcomes == 0
     # A sample is rounded as all numbers are; one part in 2^20 is far above a float32 rounding of the largest.
     # In the dark every sample is 0, which any bound holds.
     most = (bound.at_camera or 1.0) * (1 + 2.0**-20)
-    low, high = evidence.feasible.hull()
+    low, high = expectation.feasible.hull()
     low = np.where(unjudged[..., np.newaxis], 0.0, np.clip(low, 0.0, most))
     high = np.where(unjudged[..., np.newaxis], most, np.clip(high, 0.0, most))
-    lobes = find_lobes(evidence.scene)
-    first_hit_is_certain = (evidence.feasible.hit_primitives != UNUSED).sum(axis=2) == 1
+    lobes = find_lobes(expectation.scene)
+    first_hit_is_certain = (expectation.feasible.hit_primitives != UNUSED).sum(axis=2) == 1
     is_random = ~(lobes.sees_directly() & first_hit_is_certain)
     outcome = compare_means(low, high, rendering.batch_means, rendering.samples, most, lobes, is_random)
     distances = _distances(outcome)
     within_range = unjudged & (outcome.p_values >= SIGNIFICANCE).all(axis=2)
     distances = np.where(within_range[..., np.newaxis], UNJUDGED, distances)
     by_shortcut: NDArray[np.bool_] = (
-        ~unjudged & (distances.max(axis=2) <= 1) & _is_not_due(rendering, evidence.feasible, most)
+        ~unjudged & (distances.max(axis=2) <= 1) & _is_not_due(rendering, expectation.feasible, most)
     )
-    declared = as_declared(rendering.image, evidence.truth, by_shortcut)
-    judgement = judgement_of(distances.max(axis=2), rendering.image, evidence.truth, evidence.feasible, declared)
+    declared = as_declared(rendering.image, expectation.truth, by_shortcut)
+    judgement = judgement_of(distances.max(axis=2), rendering.image, expectation.truth, expectation.feasible, declared)
     one_box = np.zeros(unjudged.shape, dtype=np.int64)
-    pixels = pixel_evidence(low[:, :, np.newaxis], high[:, :, np.newaxis], one_box, evidence.feasible.merged, declared)
+    pixels = pixel_evidence(
+        low[:, :, np.newaxis], high[:, :, np.newaxis], one_box, expectation.feasible.merged, declared
+    )
     without_test, reason = verdict_of(judgement)
     if without_test == Verdict.INCOMPARABLE:
-        return Judged(judgement, outcome.test, without_test, reason, distances, pixels)
+        return ImageVerdict(judgement, outcome.test, without_test, reason, distances, pixels)
     aside = f"with {rendering.samples} samples a pixel{capped_in_words(judgement)}"
-    return Judged(judgement, outcome.test, *_verdict(outcome, aside, judgement), distances, pixels)
+    return ImageVerdict(judgement, outcome.test, *_verdict(outcome, aside, judgement), distances, pixels)
 
 
 def _is_not_due(rendering: Rendering, feasible: FeasibleSet, most: float) -> NDArray[np.bool_]:
@@ -117,17 +122,17 @@ def _is_not_due(rendering: Rendering, feasible: FeasibleSet, most: float) -> NDA
     return np.asarray((p_values < SIGNIFICANCE).any(axis=2))
 
 
-def of_pixel_areas(evidence: Evidence) -> Evidence:
-    """The same of the means over the pixels' areas in place of the values at their centres."""
-    low, high = area_means(evidence.scene)
+def of_pixel_areas(expectation: Expectation) -> Expectation:
+    """What is expected of each pixel's mean over its whole area, from what is expected at its centre."""
+    low, high = area_means(expectation.scene)
     merged = np.zeros(low.shape[:2], dtype=bool)
     low, high, due = low[:, :, np.newaxis], high[:, :, np.newaxis], np.ones((*merged.shape, 1), dtype=bool)
-    one_outcome = replace(evidence.feasible, low=low, high=high, due=due, merged=merged)
-    return replace(evidence, truth=(low + high)[:, :, 0] / 2, feasible=one_outcome)
+    one_outcome = replace(expectation.feasible, low=low, high=high, due=due, merged=merged)
+    return replace(expectation, truth=(low + high)[:, :, 0] / 2, feasible=one_outcome)
 
 
-def judge_light_paths(rendering: Rendering, areas: Evidence) -> Judged:
-    """What light paths add up to, against the pixels' area means; `areas` is evidence of these."""
+def judge_light_paths(rendering: Rendering, areas: Expectation) -> ImageVerdict:
+    """Judge sums of random light paths, which give means over whole pixels: `areas` comes from `of_pixel_areas`."""
     assert rendering.image is not None
     assert rendering.batch_means is not None
     low, high = areas.feasible.low, areas.feasible.high
@@ -139,11 +144,14 @@ def judge_light_paths(rendering: Rendering, areas: Evidence) -> Judged:
     one_box = np.zeros(distances.shape[:2], dtype=np.int64)
     pixels = pixel_evidence(low, high, one_box, areas.feasible.merged, nowhere)
     aside = f"with {rendering.samples} light paths"
-    return Judged(judgement, outcome.test, *_verdict(outcome, aside, judgement), distances, pixels)
+    return ImageVerdict(judgement, outcome.test, *_verdict(outcome, aside, judgement), distances, pixels)
 
 
 def _distances(outcome: StochasticOutcome) -> NDArray[np.float64]:
-    """From the interval: exponents of these probabilities grow with the square of the distance, so that this is one."""
+    """Distances in tolerances from probabilities.
+
+    The exponent of a tail probability grows with the square of the distance: SIGNIFICANCE itself is at distance 1.
+    """
     with np.errstate(divide="ignore"):
         distances: NDArray[np.float64] = np.sqrt(np.log(outcome.p_values) / np.log(SIGNIFICANCE))
     return distances

@@ -60,13 +60,13 @@ class KillCell:
 
     @property
     def fails(self) -> bool:
-        """Whether the matrix would say `fail` or `error`."""
+        """Whether the cell counts as a kill: the matrix would say `fail` or `error`."""
         return self.margin > 1
 
 
 @dataclass(frozen=True)
 class SceneKills:
-    """All applicable subjects on one scene."""
+    """The cells of one scene for all subjects that differ from the right tracer there."""
 
     scene: str
     cells: tuple[KillCell, ...]
@@ -154,10 +154,10 @@ def _first_hits_of(scene: Scene, subject: Subject) -> FirstHits:
     rays = Rays(*primary_rays(scene))
     position, normal = np.full((2, *rays.origins.shape), np.nan)
     count = right.kernel.rows_of(right.data, SPHERE_MATERIAL) + right.kernel.rows_of(right.data, TRIANGLE_MATERIAL)
-    for line, column in np.argwhere(primitives != NOTHING).tolist():
-        origin, direction = rays.origins[line, column].tolist(), rays.directions[line, column].tolist()
-        point = right.kernel.along(origin, direction, depths[line, column])
-        position[line, column] = point
-        if primitives[line, column] < count:
-            normal[line, column] = right.kernel.surface_normal(right.data, int(primitives[line, column]), point)
+    for row, column in np.argwhere(primitives != NOTHING).tolist():
+        origin, direction = rays.origins[row, column].tolist(), rays.directions[row, column].tolist()
+        point = right.kernel.along(origin, direction, depths[row, column])
+        position[row, column] = point
+        if primitives[row, column] < count:
+            normal[row, column] = right.kernel.surface_normal(right.data, int(primitives[row, column]), point)
     return FirstHits(depths.astype(np.float64), position, normal, primitives)

@@ -16,7 +16,7 @@ from raytruth.comparisons.feasible_sets.kept_feasible_sets import FEASIBLE_SET_R
 from raytruth.comparisons.kills.kill_matrix import KillCell, SceneKills, kills_on
 from raytruth.comparisons.kills.set_cover import smallest_cover
 from raytruth.comparisons.measures.public_gates import GATES
-from raytruth.comparisons.records.kill_results import RESULTS_FILE, FaultResult, KillResults, VariantResult
+from raytruth.comparisons.records.kill_results import KILLS_FILE, FaultResult, KillResults, VariantResult
 from raytruth.reference_tracer.certified_image import collect_garbage_rarely
 from raytruth.reference_tracer.storage.source_digest import source_digest
 from raytruth.reference_tracer.storage.whole_files import write_whole
@@ -68,7 +68,7 @@ def run_kills(scenes: Sequence[Scene], directory: Path, jobs: int, *, fresh: boo
 
 
 def kill_results(kills: Sequence[SceneKills], seconds: float) -> KillResults:
-    """All scenes put together, in the order of their names."""
+    """The kill matrix from what all scenes found, in the order of the scenes' names; `seconds` is what it took."""
     ordered = sorted(kills, key=lambda scene: scene.scene)
     faults = tuple(_fault_result(name, ordered) for name in all_faults())
     killers = [set(fault.killed_by) for fault in faults if fault.killed]
@@ -84,8 +84,8 @@ def kill_results(kills: Sequence[SceneKills], seconds: float) -> KillResults:
 
 
 def write_kill_results(directory: Path, results: KillResults) -> None:
-    """Into the directory, whole or not at all."""
-    write_whole(directory / RESULTS_FILE, results.model_dump_json(indent=1))
+    """Write the kill matrix as `faults.json` into a results directory, whole or not at all. Raises OSError."""
+    write_whole(directory / KILLS_FILE, results.model_dump_json(indent=1))
 
 
 def _kills_of(scene: Scene) -> SceneKills:
@@ -141,7 +141,7 @@ def _kept_path(directory: Path, scene: Scene) -> Path:
 
 
 def kills_key(scene: Scene) -> str:
-    """Of all that the kills of a scene depend on."""
+    """A digest of all that the kills of a scene depend on: the scene, and the code in KILL_ROOMS."""
     return hashlib.sha256(f"{scene.model_dump_json()}\n{source_digest(*KILL_ROOMS)}".encode()).hexdigest()
 
 

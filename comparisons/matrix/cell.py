@@ -13,7 +13,7 @@ import numpy as np
 
 from raytruth.comparisons.judgement.exact_test import largest_error
 from raytruth.comparisons.judgement.first_hit_test import judge_first_hits, verdict_of_first_hits
-from raytruth.comparisons.judgement.pixel_verdict import together
+from raytruth.comparisons.judgement.pixel_verdict import together, with_shortcuts
 from raytruth.comparisons.judgement.verdict import judge_exact, judge_light_paths, judge_noisy, of_pixel_areas
 from raytruth.comparisons.records.image_files import write_image
 from raytruth.comparisons.records.pixel_evidence import write_pixel_evidence
@@ -23,7 +23,7 @@ from raytruth.comparisons.records.results import Cell, Images, Verdict
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from raytruth.comparisons.judgement.verdict import Evidence, Judged
+    from raytruth.comparisons.judgement.verdict import Expectation, ImageVerdict
     from raytruth.comparisons.records.renderings import Rendering
     from raytruth.comparisons.renderers.protocol import Integrator, Renderer
     from raytruth.scenes.scene import Scene
@@ -51,7 +51,7 @@ class CellPlace:
 
     @property
     def folder(self) -> str:
-        """Relative to the results directory."""
+        """The cell's folder, as a path relative to the results directory."""
         return f"cells/{self.scene.name}/{self.renderer.name}-{self.integrator.name}"
 
     @property
@@ -60,13 +60,13 @@ class CellPlace:
         return f"raytruth run {shlex.quote(self.source)} --renderer {self.renderer.name} --fresh"
 
 
-def run_cell(place: CellPlace, depth: int, evidence: Evidence, directory: Path) -> Cell:
+def run_cell(place: CellPlace, depth: int, expectation: Expectation, directory: Path) -> Cell:
     """Render and judge in a temporary folder, which then takes the cell's place; a failed render is an error cell."""
     target = directory / place.folder
     target.parent.mkdir(parents=True, exist_ok=True)
     folder = Path(mkdtemp(prefix=f"{UNFINISHED_CELL}{target.name}-", dir=target.parent))
     try:
-        cell = _judged(place, depth, evidence, folder)
+        cell = _judged(place, depth, expectation, folder)
         for scratch in (*folder.glob("*.npz"), *folder.glob("job.json")):
             scratch.unlink()
         (folder / CELL_FILE).write_text(cell.model_dump_json(indent=1), encoding="utf-8")
@@ -79,43 +79,41 @@ def run_cell(place: CellPlace, depth: int, evidence: Evidence, directory: Path) 
 
 
 def settled_cell(place: CellPlace, verdict: Verdict, reason: str) -> Cell:
-    """The cell of what is not rendered, or was lost."""
+    """A cell without an image: one that was not rendered, or was lost while it was; `reason` says why."""
     return Cell(**_names(place), verdict=verdict, reason=reason)
 
 
-def _judged(place: CellPlace, depth: int, evidence: Evidence, folder: Path) -> Cell:
+def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path) -> Cell:
     try:
-        rendering = place.renderer.render(place.scene, place.integrator.name, depth, evidence.rays, folder)
-        _check_sizes(rendering, place.integrator.gives, evidence.truth)
+        rendering = place.renderer.render(place.scene, place.integrator.name, depth, expectation.rays, folder)
+        _check_sizes(rendering, place.integrator.gives, expectation.truth)
     except RendererError as error:
         return Cell(**_circumstances(place, folder), verdict=Verdict.ERROR, reason=str(error))
-    hits = None if rendering.first_hits is None else judge_first_hits(rendering.first_hits, evidence.feasible)
+    hits = None if rendering.first_hits is None else judge_first_hits(rendering.first_hits, expectation.feasible)
     told = _circumstances(place, folder) | {"seconds": rendering.seconds, "first_hits": hits}
     if rendering.image is None:
         assert hits is not None, "checked with the sizes"
-        verdict, reason = verdict_of_first_hits(hits)
-        reason = f"{reason}; {evidence.shortcuts}" if verdict == Verdict.DECLARED else reason
+        verdict, reason = with_shortcuts(*verdict_of_first_hits(hits), expectation.shortcuts)
         return Cell(**told, verdict=verdict, reason=reason)
     truth = f"cells/{place.scene.name}/{TRUTH_FILE}"
     if place.integrator.follows == "light paths":
-        evidence = of_pixel_areas(evidence)
+        expectation = of_pixel_areas(expectation)
         truth = f"{place.folder}/{AREA_MEANS_FILE}"
-        write_image(folder / AREA_MEANS_FILE, evidence.truth.astype(np.float32))
-        judged = judge_light_paths(rendering, evidence)
+        write_image(folder / AREA_MEANS_FILE, expectation.truth.astype(np.float32))
+        judged = judge_light_paths(rendering, expectation)
     elif rendering.batch_means is not None:
-        judged = judge_noisy(rendering, evidence)
+        judged = judge_noisy(rendering, expectation)
     else:
-        judged = judge_exact(rendering.image, evidence)
+        judged = judge_exact(rendering.image, expectation)
     verdict, reason = judged.verdict, judged.reason
     if hits is not None:
         verdict, reason = together((verdict, reason), verdict_of_first_hits(hits))
-    if verdict == Verdict.DECLARED:
-        reason = f"{reason}; {evidence.shortcuts}"
+    verdict, reason = with_shortcuts(verdict, reason, expectation.shortcuts)
     return Cell(
         **told,
         verdict=verdict,
         reason=reason,
-        largest_error=largest_error(rendering.image, evidence.truth, evidence.feasible),
+        largest_error=largest_error(rendering.image, expectation.truth, expectation.feasible),
         judgement=judged.judgement,
         stochastic=judged.test,
         images=_written(rendering, judged, truth, place, folder),
@@ -134,12 +132,12 @@ def _names(place: CellPlace) -> dict[str, Any]:
 
 
 def _circumstances(place: CellPlace, folder: Path) -> dict[str, Any]:
-    """Of a cell that was rendered, whatever came of it."""
+    """What is told of a cell that was rendered, whatever came of it."""
     log = f"{place.folder}/{LOG_FILE}" if (folder / LOG_FILE).exists() else None
     return _names(place) | {"source": place.source, "version": place.version, "log": log}
 
 
-def _written(rendering: Rendering, judged: Judged, truth: str, place: CellPlace, folder: Path) -> Images:
+def _written(rendering: Rendering, judged: ImageVerdict, truth: str, place: CellPlace, folder: Path) -> Images:
     """Write the images of the cell; `truth` is the one that it was judged by."""
     assert rendering.image is not None, "first hits alone have no images"
     write_image(folder / "render.exr", rendering.image.astype(np.float32))

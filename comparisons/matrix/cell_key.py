@@ -35,19 +35,23 @@ ADAPTERS = ("comparisons/renderers", "scenes/exporters")
 
 
 def scene_digest(scene: Scene) -> str:
-    """Of all that a scene says, its name included."""
+    """A digest of all that a scene says, its name included."""
     return hashlib.sha256(scene.model_dump_json().encode()).hexdigest()
 
 
 def cell_key(of_scene: str, renderer: Renderer, integrator: Integrator, version: str | None) -> str:
-    """Of the scene, by its `scene_digest`, the renderer's version, its adapter and exporter, and CELL_ROOMS."""
+    """A digest of all that a cell depends on.
+
+    That are the scene, by its `scene_digest`, the renderer's version, its adapter and exporter, and the code in
+    CELL_ROOMS.
+    """
     judging = source_digest(*CELL_ROOMS)
     parts = (of_scene, renderer.name, integrator.name, str(version), judging, adapter_digest(renderer))
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
 
 
 def adapter_digest(renderer: Renderer) -> str:
-    """Of the file of the renderer's class, and of those in the folders ADAPTERS that it uses."""
+    """A digest of the file of the renderer's class, and of those in the folders ADAPTERS that it uses."""
     return _digest_with_imports(Path(inspect.getfile(type(renderer))))
 
 
@@ -57,7 +61,7 @@ def _digest_with_imports(path: Path) -> str:
 
 
 def files_used(path: Path, root: Path, folders: tuple[str, ...] = ADAPTERS) -> set[Path]:
-    """The file, and those in the folders that it imports or starts, directly or through others of them.
+    """The file itself, and files in the folders that it imports or starts, directly or through others of them.
 
     `root` is the folder of the package `raytruth`, and `folders` are relative to it.
     """

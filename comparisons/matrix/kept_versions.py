@@ -41,7 +41,7 @@ STEERING = ("LD_", "DRJIT_", "LIBGL_", "MESA_", "GALLIUM_", "EGL_", "__EGL_")
 
 
 def kept_version(renderer: Renderer) -> str | None:
-    """What `renderer.version()` gave here under the same circumstances, None where that is not known."""
+    """What `renderer.version()` gave here under the same circumstances; None where it was not asked."""
     try:
         circumstances, version = _file(renderer).read_text(encoding="utf-8").splitlines()
     except (OSError, ValueError):
@@ -50,7 +50,10 @@ def kept_version(renderer: Renderer) -> str | None:
 
 
 def tried_version(renderer: Renderer) -> str | None:
-    """`renderer.version()`, which is kept. That a renderer is missing is not: it may have failed by chance."""
+    """What `renderer.version()` gives now, which is kept.
+
+    That a renderer is missing is not kept: a trial may have failed by chance.
+    """
     version = renderer.version()
     if version is None:
         _file(renderer).unlink(missing_ok=True)

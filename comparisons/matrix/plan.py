@@ -37,9 +37,9 @@ class Plan:
 
     settled: tuple[Cell, ...]
     by_scene: dict[str, tuple[PlannedCell, ...]]
-    """By what names the scene on the command line."""
+    """The scenes, each by what names it on the command line."""
     versions: Mapping[str, str | None]
-    """Of each renderer; None where it cannot run here."""
+    """The version of each renderer by its name; None where it cannot run here."""
 
 
 def plan_run(scenes: Mapping[str, Scene], renderers: Sequence[Renderer], directory: Path, *, fresh: bool) -> Plan:

@@ -21,7 +21,7 @@ QUICK_FILE = Path(__file__).with_name("quick_suite.json")
 
 
 def quick_scenes() -> tuple[str, ...]:
-    """The names of the scenes, as `raytruth faults --write-quick` found them."""
+    """The names of the quick suite's scenes, as `raytruth faults --write-quick` found them."""
     return tuple(json.loads(QUICK_FILE.read_text(encoding="utf-8")))
 
 

@@ -102,7 +102,7 @@ def write_results(
 
 
 def cell_place(cell: Cell) -> tuple[str, str, str]:
-    """What tells cells apart."""
+    """What tells a cell from all others of a results directory: scene, renderer and integrator."""
     return cell.scene, cell.renderer, cell.integrator
 
 

@@ -29,7 +29,7 @@ class WaiverError(Exception):
 
 
 class Waiver(Record):
-    """A failure that is known."""
+    """A known failure of a renderer, which does not make a run fail; see docs/how-verdicts-work.md."""
 
     renderer: Text
     version: Text
@@ -43,7 +43,7 @@ class Waiver(Record):
 
     @property
     def place(self) -> str:
-        """Which cell it is about, in words."""
+        """The cell that it is about, in words."""
         return f"{self.renderer}/{self.integrator} on {self.scene}"
 
 

@@ -66,9 +66,8 @@ def _run_worker(folder: Path, numbers: range, pairs: Sequence[tuple[Image, Image
 def _read_measured(folder: Path, measured: list[dict[str, float | None]], first: int) -> int:
     """Take over what the worker measured; the number of the pair to go on with: that behind the one that failed."""
     path = folder / MEASURED_FILE
-    for line in path.read_text(encoding="utf-8").split("\n")[
-        :-1
-    ]:  # behind the last line end stands nothing, or half a line
+    *lines, _ = path.read_text(encoding="utf-8").split("\n")  # behind the last line end is nothing, or half a line
+    for line in lines:
         values = json.loads(line)
         number = values.pop("pair")
         measured[number] |= values

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Lobes:
-    """All paths of all pixels. The first axis of each array counts paths, those of one pixel in a row."""
+    """All paths of all pixels' rays through mirrors and glass. Arrays' first axis counts paths, pixel by pixel."""
 
     shape: tuple[int, int]
     """Height and width of the image."""
@@ -48,7 +48,7 @@ class Lobes:
     """d log(probability) / d log(R), where the same factor changes every R of the path that is below 1."""
 
     def expectation(self, of_paths: NDArray[Any]) -> NDArray[np.float64]:
-        """Each pixel's expectation of what paths bring, (paths, …) to (pixels, …)."""
+        """The mean over each pixel's paths, by probability, of values (paths, …); shape (height · width, …)."""
         height, width = self.shape
         flat = of_paths.reshape(len(self.pixel), -1)
         columns = [np.bincount(self.pixel, self.probability * column, height * width) for column in flat.T]
@@ -64,7 +64,7 @@ class Lobes:
 
 
 def find_lobes(scene: Scene) -> Lobes:
-    """Walk the ray tree of every pixel in Python floats.
+    """All paths of a scene's pixels, found by walking the ray tree of each in Python floats.
 
     The scene must have a `radiance_bound`: then its dielectrics obey Fresnel's equations, and what is mirror or
     dielectric neither shines nor is lit, so that light comes from the ends of branches alone. Raises ValueError for a
@@ -77,10 +77,10 @@ def find_lobes(scene: Scene) -> Lobes:
     camera = scene.camera
     walker = _Walker(scene)
     paths = [
-        (line * camera.width + column, path)
-        for line in range(camera.height)
+        (row * camera.width + column, path)
+        for row in range(camera.height)
         for column in range(camera.width)
-        for path in walker.paths(column, line)
+        for path in walker.paths(column, row)
     ]
     return Lobes(
         shape=(camera.height, camera.width),
@@ -128,9 +128,9 @@ class _Walker:
 
         return noting
 
-    def paths(self, column: int, line: int) -> Iterator[_Path]:
-        """Those of one pixel that have ended."""
-        origin, direction = self.kernel.primary_ray(self.frame, column + 0.5, line + 0.5)
+    def paths(self, column: int, row: int) -> Iterator[_Path]:
+        """The paths of one pixel, each followed to its end."""
+        origin, direction = self.kernel.primary_ray(self.frame, column + 0.5, row + 0.5)
         medium = integer_of(self.data, CAMERA_MEDIUM, 0)
         waiting = [_Path((origin, direction, (1.0, 1.0, 1.0), NOTHING, medium, self.depth))]
         while waiting:

@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class StochasticOutcome:
-    """The verdict on one image, with where it comes from."""
+    """The outcome of a test of means: whether all are possible, and the probabilities that it comes from."""
 
     test: StochasticTest
     passes: bool

@@ -24,7 +24,7 @@ FEWEST_POINTS_A_SIDE = 2
 
 
 def area_means(scene: Scene) -> tuple[Array, Array]:
-    """The least and the largest that each pixel's area mean may be; both of shape (height, width, 3), linear RGB.
+    """Bounds on each pixel's mean over its area: the least and the largest, linear RGB, shape (height, width, 3) each.
 
     The radiance is computed at a regular grid of points. Each stands for its cell, with the least and the largest of
     its eight neighbours. So an edge between two points may lie anywhere between them, and half a cell more is left for
@@ -39,7 +39,7 @@ def area_means(scene: Scene) -> tuple[Array, Array]:
 
 
 def enlarged(scene: Scene, factor: int) -> Scene:
-    """The same view with so many times the pixels along each side."""
+    """The same view with `factor` times as many pixels along each side."""
     return scene.resized(scene.camera.width * factor, scene.camera.height * factor)
 
 

@@ -9,7 +9,7 @@ Array = NDArray[np.float64]
 
 
 def block_sizes(height: int, width: int) -> list[int]:
-    """1, 2, 4, … up to a block that holds the whole image."""
+    """The sides of blocks in pixels: 1, 2, 4, … up to a block that holds the whole image."""
     return [2**level for level in range((max(height, width) - 1).bit_length() + 1)]
 
 
@@ -21,5 +21,5 @@ def block_sums(image: Array, size: int) -> Array:
 
 
 def spread(blocks: Array, size: int, shape: tuple[int, ...]) -> Array:
-    """Every block's value at each of its pixels."""
+    """For each pixel of an image of this shape the value of its block; `size` is the blocks' side in pixels."""
     return blocks.repeat(size, axis=0)[: shape[0]].repeat(size, axis=1)[:, : shape[1]]

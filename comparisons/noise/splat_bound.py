@@ -41,7 +41,7 @@ GRID = 4
 
 
 def has_splat_bound(scene: Scene) -> bool:
-    """Whether all light comes from point lights by diffuse surfaces alone, and a perspective camera sees it."""
+    """Whether a light path's splat has a bound: point lights, diffuse surfaces alone, and a perspective camera."""
     dark = isinstance(scene.background, ConstantBackground) and not any(scene.background.color)
     lights = all(isinstance(light, PointLight) and light.falloff == "inverse_square" for light in scene.lights)
     surfaces = all(_is_diffuse(material) for material in used_materials(scene))
@@ -72,7 +72,7 @@ def largest_splats(scene: Scene) -> Array:
 
 
 def _is_diffuse(material: Material) -> bool:
-    """And has no other term, known here or not."""
+    """Whether a material has a diffuse term and no other, known here or not."""
     return all(isinstance(term, Diffuse) for term in material.terms().values())
 
 
@@ -83,7 +83,7 @@ def _largest_intensity(scene: Scene) -> Array:
 
 
 def _pixel_area(scene: Scene) -> float:
-    """In an image plane at distance 1."""
+    """The area of a pixel in an image plane at distance 1."""
     camera = scene.camera
     assert camera.projection == "perspective", "other cameras have no bound"
     return float(2 * tan(radians(camera.vertical_field_of_view) / 2) / camera.height) ** 2

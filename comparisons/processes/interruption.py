@@ -27,7 +27,7 @@ _busy = threading.Event()
 
 @contextmanager
 def interruption_held_back() -> Iterator[None]:
-    """For starting processes, which would tell of an interruption before they are set up; we hear of it after."""
+    """Hold an interruption back while processes are started: they would tell of it before they are set up."""
     resource_tracker.ensure_running()  # it would lift the block when it starts by itself
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
@@ -46,7 +46,7 @@ def start_worker() -> None:
 
 @contextmanager
 def at_work() -> Iterator[None]:
-    """For a task, which an interruption ends; a process that waits could break off in the middle of a message."""
+    """Let an interruption end a task of a worker, but not its waiting, which could break off inside a message."""
     _busy.set()
     try:
         yield

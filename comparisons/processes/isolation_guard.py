@@ -29,7 +29,7 @@ NOT_FOUND = 127
 
 
 def main() -> None:
-    """Run the command and report."""
+    """Run the command under its limits, end all that it leaves behind, and report how it ended."""
     status, memory_bytes, file_bytes = (int(argument) for argument in sys.argv[1:4])
     signal.signal(signal.SIGTERM, _stop)
     library = ctypes.CDLL(None, use_errno=True)

@@ -9,7 +9,7 @@ from raytruth.comparisons.records.results import Record
 if TYPE_CHECKING:
     from pathlib import Path
 
-RESULTS_FILE = "faults.json"
+KILLS_FILE = "faults.json"
 
 
 class SubjectResult(Record):
@@ -21,7 +21,7 @@ class SubjectResult(Record):
     """By scene, where it differs from the right tracer: the largest distance in tolerances, up to 1 for a pass; None
     where that is infinite."""
     errors: dict[str, str]
-    """By scene: what it raised, or what is wrong with the whole image."""
+    """For each scene on which that happened: what it raised, or what is wrong with the whole image."""
     gates: tuple[str, ...]
     """The gates of public suites that reject it on any scene."""
 
@@ -32,7 +32,7 @@ class SubjectResult(Record):
 
     @property
     def largest_margin(self) -> float | None:
-        """Over all scenes; None if infinite."""
+        """The largest margin over all scenes, in tolerances; None if one is infinite."""
         finite = [margin for margin in self.margins.values() if margin is not None]
         return None if len(finite) < len(self.margins) else max(finite, default=0.0)
 
@@ -54,7 +54,7 @@ class VariantResult(SubjectResult):
 
 
 class KillResults(Record):
-    """The whole matrix."""
+    """The kill matrix: all faults and legitimate variants, and what judged them."""
 
     schema_version: int = 1
     faults: tuple[FaultResult, ...]
@@ -78,5 +78,5 @@ class KillResults(Record):
 
 
 def read_kill_results(directory: Path) -> KillResults:
-    """From a results directory. Raises OSError and ValueError."""
-    return KillResults.model_validate_json((directory / RESULTS_FILE).read_text(encoding="utf-8"))
+    """The kill matrix in a results directory. Raises OSError where there is none, ValueError where it is damaged."""
+    return KillResults.model_validate_json((directory / KILLS_FILE).read_text(encoding="utf-8"))

@@ -70,7 +70,7 @@ def write_pixel_evidence(path: Path, evidence: PixelEvidence) -> None:
 
 
 def read_pixel_evidence(path: Path) -> PixelEvidence:
-    """The evidence in a file. Raises ImageError where it is missing, damaged or of another kind."""
+    """The pixel evidence in a file. Raises ImageError where it is missing, damaged or of another kind."""
     pixels, found = read_channels(path, _are_right, f"the channels {', '.join(_names(1))} and so on")
     outcomes = _count(found)
     names = _names(outcomes)
@@ -101,5 +101,5 @@ def _are_right(names: tuple[str, ...]) -> bool:
 
 
 def _names(outcomes: int) -> tuple[str, ...]:
-    """In the order of the arrays; a file may have another."""
+    """The channels' names in the order of the arrays; a file may have another order."""
     return (*FIRST_NAMES, *(f"outcome{place}.{end}" for place in range(outcomes) for end in END_NAMES))

@@ -25,7 +25,7 @@ class Rays:
 
 @dataclass(frozen=True)
 class FirstHits:
-    """What the primary rays meet: shape (height, width) or (height, width, 3)."""
+    """What the primary rays meet, in arrays of shape (height, width), and (height, width, 3) for vectors."""
 
     depth: NDArray[np.float64]
     """Distance along the unit ray; infinity where nothing is hit."""
@@ -38,13 +38,16 @@ class FirstHits:
 
 @dataclass(frozen=True)
 class Rendering:
-    """What one integrator gives. A stochastic renderer gives the mean over all samples and the batch means."""
+    """What one integrator gives for a scene.
+
+    A stochastic one gives the mean over all samples, and the means of batches of them.
+    """
 
     image: Image | None
     """None, with first hits, from an integrator that gives first hits only."""
     seconds: float
     first_hits: FirstHits | None = None
     samples: int = 1
-    """Of each pixel; of an integrator that follows light paths, the number of these."""
+    """How many samples each pixel has; or how many light paths the image has, where an integrator follows these."""
     batch_means: NDArray[np.float32] | None = None
     """Shape (batches, height, width, 3): means over equally many samples with independent seeds."""

@@ -40,17 +40,21 @@ class Record(BaseModel):
 class Metrics(Record):
     """Global measures of difference from the truth, for information: never the gate. None: could not be computed."""
 
-    largest_difference: float | None = None
-    mean_difference: float | None = None
+    largest_difference: float | None = Field(None, title="Largest difference")
+    mean_difference: float | None = Field(None, title="Mean difference (bias)")
     """Signed, so that a bias shows."""
-    rmse: float | None = None
-    relative_mse: float | None = None
-    psnr: float | None = None
+    rmse: float | None = Field(None, title="RMSE")
+    relative_mse: float | None = Field(None, title="Relative MSE")
+    psnr: float | None = Field(None, title="PSNR [dB]")
     """Decibels relative to the truth's largest value; None for identical images, too."""
-    ssim: float | None = None
-    flip: float | None = None
-    delta_e_2000: float | None = None
+    ssim: float | None = Field(None, title="SSIM")
+    flip: float | None = Field(None, title="FLIP")
+    delta_e_2000: float | None = Field(None, title="Largest ΔE2000")
     """Largest CIE ΔE2000 of the sRGB pictures."""
+
+    def by_title(self) -> dict[str, float | None]:
+        """Each measure by the title that it has in a report."""
+        return {str(field.title): getattr(self, name) for name, field in Metrics.model_fields.items()}
 
 
 class WorstPixel(Record):
@@ -61,7 +65,7 @@ class WorstPixel(Record):
     value: tuple[float, float, float]
     truth: tuple[float, float, float]
     low: tuple[float, float, float]
-    """Of the nearest outcome."""
+    """The ends of the nearest outcome's box, channel by channel."""
     high: tuple[float, float, float]
     tolerances: float
     """Distance from the middle of the nearest outcome in units of the tolerance: above 1 the pixel fails."""
@@ -72,13 +76,13 @@ class DeclaredPixels(Record):
 
     count: int
     largest_difference: float
-    """Of a channel from the truth."""
+    """How far the farthest channel of any of them is from the truth, linear."""
     pixels: tuple[tuple[int, int], ...]
     """Column and row, the farthest from the truth first; not all of them where there are very many."""
 
 
 class Judgement(Record):
-    """How the pixels of an image fared."""
+    """How many pixels of an image fared how, and the worst of them."""
 
     pixels: int
     failing: int
@@ -94,7 +98,7 @@ class Judgement(Record):
 
 
 class StochasticTest(Record):
-    """The test of a noisy mean against the truth."""
+    """What the test of a noisy image's means against the truth was, and what it found."""
 
     samples: int
     batches: int
@@ -105,7 +109,7 @@ class StochasticTest(Record):
 
 
 class FirstHitComparison(Record):
-    """The first hits of the very same rays; the largest errors are over pixels whose primitive is certain."""
+    """How first hits of the very same rays compare; the largest errors are over pixels whose primitive is certain."""
 
     compared: int
     unjudged: int = 0
@@ -145,7 +149,7 @@ class Waived(Record):
 
 
 class Cell(Record):
-    """One scene on one renderer."""
+    """One scene on one integrator of one renderer: its verdict, and what that rests on."""
 
     scene: str
     renderer: str
@@ -153,7 +157,7 @@ class Cell(Record):
     verdict: Verdict
     reason: str
     waived: Waived | None = None
-    """Of a cell that fails as a waiver says; the verdict is still `fail`."""
+    """The waiver that tells of this failure; the verdict is still `fail`. None where none does."""
     largest_error: float | None = None
     """Over the judged pixels: from the truth, or from the nearest outcome that is due where there are several."""
     seconds: float | None = None
@@ -203,7 +207,7 @@ class RendererRecord(Record):
 
 
 class Results(Record):
-    """A run of the matrix."""
+    """What `results.json` holds: all cells of a run, their scenes and their renderers."""
 
     schema_version: int = SCHEMA_VERSION
     raytruth_version: str

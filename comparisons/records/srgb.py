@@ -19,6 +19,6 @@ def srgb_encoded(linear: Array) -> Array:
 
 
 def srgb_decoded(encoded: Array) -> Array:
-    """The inverse: x/12.92 up to 0.04045, then ((x + 0.055)/1.055)^2.4 (IEC 61966-2-1:1999, section 5.3)."""
+    """The inverse of `srgb_encoded`: x/12.92 up to 0.04045, then ((x + 0.055)/1.055)^2.4 (ibid., section 5.3)."""
     steep = ((np.maximum(encoded, 0.04045) + 0.055) / 1.055) ** 2.4
     return np.asarray(np.where(encoded <= 0.04045, encoded / 12.92, steep))

@@ -24,7 +24,7 @@ _FAMILIES = {"mitsuba-llvm": "mitsuba", "embree-robust": "embree", "raytruth": N
 
 
 def family_of(name: str) -> str | None:
-    """What a renderer is an opinion of, None for the tracer that the truth comes from."""
+    """The project whose opinion a renderer is, which counts once; None for the tracer that the truth comes from."""
     return _FAMILIES.get(name, name)
 
 

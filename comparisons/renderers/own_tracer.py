@@ -45,11 +45,11 @@ class ReferenceTracer:
     install = "part of raytruth"
 
     def version(self) -> str:
-        """That of the package."""
+        """The version of the package raytruth."""
         return f"raytruth {version('raytruth')}"
 
     def refuses(self, scene: Scene) -> str | None:
-        """Nothing: what a scene can state, the tracer computes, unless its source has never heard of it."""
+        """Why the tracer cannot express the scene: only if a feature of scenes is unknown to its source."""
         return missing_features("raytruth's tracer", EXPRESSES, required_features(scene))
 
     def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature
@@ -80,10 +80,10 @@ def _first_hits(scene: Scene, rays: Rays) -> FirstHits:
     depths, primitives = first_hits(exact)
     position = np.full(rays.origins.shape, np.nan)
     normal = np.full(rays.origins.shape, np.nan)
-    for line, column in np.argwhere(primitives != NOTHING).tolist():
-        origin = tuple(rays.origins[line, column].tolist())
-        direction = tuple(rays.directions[line, column].tolist())
-        point = exact.kernel.along(origin, direction, depths[line, column])
-        position[line, column] = point
-        normal[line, column] = exact.kernel.surface_normal(exact.data, int(primitives[line, column]), point)
+    for row, column in np.argwhere(primitives != NOTHING).tolist():
+        origin = tuple(rays.origins[row, column].tolist())
+        direction = tuple(rays.directions[row, column].tolist())
+        point = exact.kernel.along(origin, direction, depths[row, column])
+        position[row, column] = point
+        normal[row, column] = exact.kernel.surface_normal(exact.data, int(primitives[row, column]), point)
     return FirstHits(depths.astype(np.float64), position, normal, primitives)

@@ -77,7 +77,7 @@ class PovRay:
     install = "apt install povray"
 
     def version(self) -> str | None:
-        """As the program tells it, or None where there is none."""
+        """The version as the program tells it, or None where there is none."""
         return _version()
 
     def refuses(self, scene: Scene) -> str | None:

@@ -33,11 +33,11 @@ class Renderer(Protocol):
 
     @property
     def name(self) -> str:
-        """The fixed name, as in `mitsuba`."""
+        """The fixed name, as in `mitsuba`, by which users choose it."""
 
     @property
     def integrators(self) -> tuple[Integrator, ...]:
-        """What it can compute."""
+        """The ways of rendering that it offers, each of which gets a cell for each scene."""
 
     @property
     def error_models(self) -> tuple[tuple[str, ErrorModel], ...]:

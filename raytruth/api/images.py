@@ -33,17 +33,13 @@ def render(
     interpreted Python floats, which are slow but not compiled first; their image is in float64. A pixel is the mean of
     `samples`² rays on a regular grid, 1 to 64. Images are judged by the one ray through each pixel's centre.
 
-    Raises ValueError for another arithmetic or number of samples, and ArithmeticError where a pixel has no value in
-    Python floats, as with a light in the very point that it lights; compiled arithmetics give infinity or NaN there.
+    Raises ValueError for another arithmetic or number of samples.
     """
     if arithmetic not in ARITHMETICS:
         raise ValueError(f"expected an arithmetic of {', '.join(ARITHMETICS)}, found {arithmetic!r}.")
     if not 1 <= samples <= MOST_SAMPLES:
         raise ValueError(f"expected 1 to {MOST_SAMPLES} samples, found {samples}.")
-    try:
-        image = rendering.render(scene, ARITHMETICS[arithmetic], samples=samples)
-    except ArithmeticError as error:
-        raise ArithmeticError(f"{scene.name} has a pixel without a value in Python floats: {error}.") from error
+    image = rendering.render(scene, ARITHMETICS[arithmetic], samples=samples)
     if arithmetic == "float32":
         return image.astype(np.float32, copy=False)
     return image.astype(np.float64, copy=False)  # Python floats come as objects

@@ -30,7 +30,7 @@ class Arithmetic:
 
     name: str
     number: Callable[[float], Any]
-    """From a Python float, exactly or rounded to the type."""
+    """Makes a number of this type from a Python float, exactly or rounded."""
     functions: Mapping[str, Any]
     """Replace what the source imports from `math` or defines itself, by name."""
     compiled: bool = False
@@ -41,6 +41,8 @@ class Arithmetic:
     in_force: Callable[[], AbstractContextManager[object]] = nullcontext
     """A context at whose precision its numbers are made and computed with: balls have one precision for the whole
     process, floats have their own."""
+    guarded_divisions: bool = False
+    """A division by zero calls the function `over_zero`, for numbers that raise an error there."""
 
     def numbers(self, values: NDArray[np.float64]) -> Any:
         """One-dimensional values as numbers of this type: an array for compiled code, else a list, which is quicker."""
@@ -49,11 +51,11 @@ class Arithmetic:
         return [self.number(value) for value in values.tolist()]
 
     def integers(self, values: NDArray[np.int64]) -> Any:
-        """As `numbers`, for integers."""
+        """One-dimensional values as integers for kernels: an array for compiled code, else a list, which is quicker."""
         return values if self.compiled else values.tolist()
 
     def image(self, *shape: int) -> NDArray[Any]:
-        """An array of zeros for results of this number type."""
+        """An array of zeros of this shape, which holds results of this number type."""
         return np.zeros(shape, dtype=type(self.number(0.0)) if self.compiled else object)
 
 
@@ -62,7 +64,15 @@ KERNEL_FILE = "<kernel"
 
 MATH = {name: getattr(math, name) for name in ("exp", "floor", "inf", "pi", "sqrt", "tan")}
 
-FLOAT = Arithmetic("float", float, MATH)
+
+def over_zero(dividend: float, zero: float) -> float:
+    """What IEEE 754 says, and compiled floats give: an infinity of the quotient's sign, or NaN of 0/0 and NaN/0."""
+    if dividend == 0.0 or math.isnan(dividend):
+        return math.nan
+    return math.copysign(math.inf, dividend) * math.copysign(1.0, zero)
+
+
+FLOAT = Arithmetic("float", float, {**MATH, "over_zero": over_zero}, guarded_divisions=True)
 FLOAT64 = Arithmetic("float64", np.float64, MATH, compiled=True)
 FLOAT32 = Arithmetic(
     "float32",
@@ -86,7 +96,7 @@ INTERPRETED_FLOAT32 = Arithmetic(
 
 
 class Namespace:
-    """Functions as attributes, for kernels that are not compiled."""
+    """A kernel that is not compiled: its functions as attributes."""
 
     def __init__(self, names: dict[str, Any]) -> None:
         self.__dict__ = names
@@ -109,6 +119,7 @@ def make_kernel(arithmetic: Arithmetic, features: Collection[str], behaviour: Be
         entry_points=COMPILED_ENTRY_POINTS if arithmetic.compiled else ENTRY_POINTS,
         decided_comparisons=arithmetic.decided_comparisons,
         rounded_operations=arithmetic.rounded_operations,
+        guarded_divisions=arithmetic.guarded_divisions,
     )
     if arithmetic.compiled:
         number_type = np.dtype(type(arithmetic.number(0.0))).name

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 
 class Decisions:
-    """Answers to undecided comparisons: a script first, then True; all answers are recorded."""
+    """Answers to comparisons that balls leave open: those of a script first, then True; all answers are recorded."""
 
     def __init__(self) -> None:
         self.answers: list[bool] = []
         self.position = 0
 
     def follow(self, script: list[bool]) -> None:
-        """Start again, with this script."""
+        """Begin a new evaluation, whose undecided comparisons are answered by this script."""
         self.answers = list(script)
         self.position = 0
 
@@ -43,7 +43,7 @@ MARGIN_BITS = 32
 
 
 def ball_arithmetic(precision_bits: int, decisions: Decisions) -> Arithmetic:
-    """Balls with midpoints of `precision_bits` bits, where it is in force: what exact arithmetic gives."""
+    """Balls that enclose what exact arithmetic gives, with midpoints of `precision_bits` bits."""
     with ctx.workprec(precision_bits):
         functions = _functions(decisions)
     return Arithmetic(
@@ -97,8 +97,8 @@ def _functions(decisions: Decisions) -> dict[str, Any]:
         "max": lambda a, b: a.max(b),
         "min": lambda a, b: a.min(b),
         "pi": arb.pi(),
-        "power": _power,
-        "sqrt": _sqrt,
+        "power": power,
+        "sqrt": square_root,
         "tan": lambda x: x.tan(),
     }
 
@@ -132,7 +132,7 @@ class TooManyOutcomesError(Exception):
 
 
 def comparison_functions(decisions: Decisions) -> dict[str, Callable[[Any, Any], bool]]:
-    """The comparisons of the source; whole numbers are compared as they are."""
+    """The source's comparisons of balls, by name: what balls leave open is asked of the decisions."""
 
     def is_less(a: Any, b: Any) -> bool:
         if a < b:
@@ -176,14 +176,14 @@ def decided_floor(x: Any, decisions: Decisions) -> int:
     return lowest + int(decisions.next())
 
 
-def _sqrt(x: Any) -> Any:
+def square_root(x: Any) -> Any:
     """The root of the part of x that is not negative: the source takes roots only of what it decided to be so."""
     if x >= 0:
         return x.sqrt()
     return from_zero_to(x.upper().sqrt())
 
 
-def _power(base: Any, exponent: Any) -> Any:
+def power(base: Any, exponent: Any) -> Any:
     """Base ** exponent for the part of the base that is not negative; exponents are positive."""
     if base > 0:
         return base**exponent

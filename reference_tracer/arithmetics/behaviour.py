@@ -17,7 +17,7 @@ class Behaviour:
     """
 
     functions: Mapping[str, Function] = field(default_factory=dict)
-    """By the name of the function of the source that each stands in for; both have the same parameters."""
+    """Functions, each by the name of the source's function that it stands in for; both have the same parameters."""
     helpers: tuple[Function, ...] = ()
     """Further functions that those call, by names that the source does not have."""
     constants: Mapping[str, Any] = field(default_factory=dict)
@@ -27,11 +27,11 @@ class Behaviour:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """All names that it gives a meaning."""
+        """All names that it gives a meaning: of functions it replaces, of helpers and of constants."""
         return (*self.functions, *(helper.__name__ for helper in self.helpers), *self.constants)
 
     def with_numbers(self, number: Function) -> Behaviour:
-        """The same for another number type: `number` makes each constant, and each number of a list, one of it."""
+        """The behaviour for another number type: `number` converts each constant, and each number of a list."""
         constants = {
             name: [number(single) for single in value] if isinstance(value, list) else number(value)
             for name, value in self.constants.items()
@@ -40,11 +40,11 @@ class Behaviour:
 
 
 IDEAL = Behaviour(name="the source's own behaviour")
-"""As the source says."""
+"""No change: what the source says."""
 
 
 def merged(*behaviours: Behaviour) -> Behaviour:
-    """All of them at once. Raises ValueError if a name is given a meaning twice."""
+    """One behaviour that has all changes of several. Raises ValueError if a name is given a meaning twice."""
     owners: dict[str, str] = {}
     for behaviour in behaviours:
         for name in behaviour.names:

@@ -97,6 +97,7 @@ def kernel_source(
     entry_points: tuple[str, ...] = ENTRY_POINTS,
     decided_comparisons: bool = False,
     rounded_operations: bool = False,
+    guarded_divisions: bool = False,
 ) -> tuple[str, dict[str, float]]:
     """The kernel as Python text, and the literals it uses by the names that they have in it.
 
@@ -125,10 +126,16 @@ def kernel_source(
     parts = [ast.unparse(constant) for name, constant in constants.items() if name in mentioned]
     for function in reached:
         rounds = rounded_operations and function.definition.name not in exact_functions()
-        if decided_comparisons or rounds:
+        changes = [
+            *([_ComparisonCalls()] if decided_comparisons else []),
+            *([_Roundings()] if rounds else []),
+            *([_GuardedDivisions()] if guarded_divisions else []),
+        ]
+        if changes:
             changed = copy.deepcopy(function.definition)
-            changed = _ComparisonCalls().visit(changed) if decided_comparisons else changed
-            parts.append(ast.unparse(_Roundings().visit(changed) if rounds else changed))
+            for change in changes:
+                changed = change.visit(changed)
+            parts.append(ast.unparse(changed))
         else:
             parts.append(function.text)
     return "\n".join(parts), {name: value for name, value in namer.names.items() if name in mentioned}
@@ -164,14 +171,14 @@ def _pruned_functions(features: frozenset[str]) -> tuple[dict[str, _PrunedFuncti
 
 @cache
 def _pruned_helper(function: Function, features: frozenset[str]) -> tuple[_PrunedFunction, dict[str, float]]:
-    """As above, for a helper: many kernels have the same ones."""
+    """A helper for these features, with its literals named; kept, since many kernels have the same ones."""
     namer = _LiteralNamer({})
     pruned = _FeaturePruner(features).prune(_override(function.__name__, function))
     return _PrunedFunction(namer.visit(pruned)), namer.names
 
 
 def _bare(function: ast.FunctionDef) -> ast.FunctionDef:
-    """Without docstring and annotations, whose names the kernel does not know."""
+    """The function without docstring and annotations, whose names the kernel does not know."""
     bare: ast.FunctionDef = ast.parse(ast.unparse(function)).body[0]  # type: ignore[assignment]
     if ast.get_docstring(bare) is not None:
         bare.body = bare.body[1:]
@@ -287,6 +294,26 @@ class _ComparisonCalls(ast.NodeTransformer):
         if isinstance(node.op, ast.Pow):
             return ast.Call(func=ast.Name(id="power", ctx=ast.Load()), args=[node.left, node.right], keywords=[])
         return node
+
+
+class _GuardedDivisions(ast.NodeTransformer):
+    """Turns a / b into (a / divisor if (divisor := b) else over_zero(a, divisor)): no call where nothing is wrong."""
+
+    def __init__(self) -> None:
+        self.count = 0
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
+        node.left, node.right = self.visit(node.left), self.visit(node.right)
+        if not isinstance(node.op, ast.Div):
+            return node
+        self.count += 1
+        name = f"divisor_{self.count}"  # the dividend, evaluated next, may hold another division
+        divisor = ast.Name(id=name, ctx=ast.Load())
+        return ast.IfExp(
+            test=ast.NamedExpr(target=ast.Name(id=name, ctx=ast.Store()), value=node.right),
+            body=ast.BinOp(left=node.left, op=ast.Div(), right=divisor),
+            orelse=ast.Call(func=ast.Name(id="over_zero", ctx=ast.Load()), args=[node.left, divisor], keywords=[]),
+        )
 
 
 class _Roundings(ast.NodeTransformer):

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from raytruth.reference_tracer.source.scene_data import SceneData
 
 Number = Any
-"""Of the kernel's number type."""
+"""A number of the kernel's number type."""
 Triple = tuple[Number, Number, Number]
 """A point, a direction, or a colour in linear RGB."""
 Frame = tuple[Triple, ...]
@@ -26,7 +26,7 @@ Ray = tuple[Any, ...]
 
 
 class Kernel(Protocol):
-    """Functions of the tracer's source; each is described there."""
+    """The functions of a kernel; each is the source's function of that name, and described there."""
 
     nearest_hit: Callable[[SceneData, Triple, Triple, int], tuple[Number, int]]
     """An attribute that may be set, since what wraps it may save work (feasible_sets/rounded_rays.py)."""

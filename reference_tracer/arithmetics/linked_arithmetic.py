@@ -70,7 +70,7 @@ def linked_arithmetic(precision_bits: int, decisions: Decisions) -> Arithmetic:
 
 
 def _comparisons(decisions: Decisions) -> dict[str, Any]:
-    """As for balls, but what the ranges leave open is looked at more closely; whole numbers are just compared."""
+    """The source's comparisons: what ranges leave open is looked at more closely; whole numbers are just compared."""
     plain = comparison_functions(decisions)
 
     def is_less(a: Any, b: Any) -> bool:

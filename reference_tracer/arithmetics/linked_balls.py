@@ -38,12 +38,12 @@ Link = tuple["LinkedBall", Any]
 
 
 class LinkedBall:
-    """A number that knows what it was made from."""
+    """A number that knows from which others it was computed, so that errors they share are counted once."""
 
     __slots__ = ("age", "center", "error", "is_symbol", "links", "range", "sweep")
 
     roundoff: Any = ZERO
-    """From -u to u, where u is the largest relative error of one operation."""
+    """The ball from -u to u, where u is the largest relative error of one operation."""
     about_one: Any = ONE
     """1 ± u."""
 
@@ -92,7 +92,7 @@ class LinkedBall:
 
 
 class Sweep(NamedTuple):
-    """What one backward sweep finds."""
+    """What one sweep backward from results to what they were computed from finds."""
 
     symbols: list[Link]
     """The derivatives by the symbols."""
@@ -146,7 +146,7 @@ def enclosure(number: LinkedBall) -> Any:
 
 
 def enclose(numbers: Iterable[LinkedBall]) -> None:
-    """As `enclosure` for each number, in one sweep for all."""
+    """Find the tight `enclosure` of each number, in one sweep for all of them."""
     open_ones = list({number.age: number for number in numbers if number.sweep is None and number.links}.values())
     size = len(open_ones)
     columns = [arb_mat(size, 1, [int(row == place) for row in range(size)]) for place in range(size)]
@@ -193,7 +193,7 @@ def condensed(numbers: Sequence[LinkedBall]) -> list[LinkedBall]:
 
 
 def new_symbol(like: LinkedBall) -> LinkedBall:
-    """A number of which nothing is known but that it lies in [-1, 1]."""
+    """A new number that is independent of all others, and anywhere in [-1, 1]."""
     symbol = like.__class__(ZERO, WITHIN_ONE, (), WITHIN_ONE)
     symbol.is_symbol = True
     return symbol

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def background_radiance(scene: SceneData, direction: Vector) -> Vector:
-    """Constant, or from bottom to top linear in the y of the unit direction; black unless the scene states one."""
+    """The radiance of the background: constant, or linear in the y of the unit direction; black unless it is stated."""
     if BACKGROUND_GRADIENT:
         height = 0.5 * (direction[1] + 1.0)
         return add(

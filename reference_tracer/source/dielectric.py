@@ -24,19 +24,19 @@ if TYPE_CHECKING:
 
 
 def index_ratio(scene: SceneData, material: int, entering: bool) -> Scalar:
-    """The η of refraction.py: the index of refraction beyond the surface over that before it."""
+    """The relative index η of refraction.py: the index of refraction beyond the surface over that before it."""
     inside = number_of(scene, MATERIAL_INDEX, material)
     outside = number_of(scene, MATERIAL_OUTSIDE_INDEX, material)
     return inside / outside if entering else outside / inside
 
 
 def medium_beyond(scene: SceneData, material: int, entering: bool) -> int:
-    """The medium behind the surface, as seen by the ray."""
+    """The medium that a ray enters through the surface: the row of its material, or -1 for empty space."""
     return material if entering else integer_of(scene, MATERIAL_OUTSIDE, material)
 
 
 def total_reflection_weight(scene: SceneData, material: int) -> Vector:
-    """All of it, or the classical constant ks."""
+    """The weight of a totally reflected ray, a colour: 1, or the classical constant ks."""
     if CONSTANT_SPLIT:
         if integer_of(scene, MATERIAL_HAS_CONSTANT_SPLIT, material):
             return vector_of(scene, MATERIAL_REFLECTANCE, material)

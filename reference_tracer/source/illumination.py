@@ -88,7 +88,7 @@ def emission(scene: SceneData, material: int, point: Vector) -> Vector:
 
 
 def ambient(scene: SceneData, material: int) -> Vector:
-    """ka·Od·Ia."""
+    """The ambient term ka·Od·Ia of the classical equation."""
     return multiply(vector_of(scene, MATERIAL_AMBIENT, material), vector_of(scene, AMBIENT_LIGHT, 0))
 
 

@@ -30,26 +30,26 @@ def render_rows(scene: SceneData, samples: int, first: int, end: int, image: Tab
     """
     frame = camera_frame(scene)
     step = 1.0 / float(samples)
-    for line in range(first, end):
+    for row in range(first, end):
         for column in range(integer_of(scene, CAMERA_SIZE, 0)):
             total = (0.0, 0.0, 0.0)
             for i in range(samples):
                 for j in range(samples):
                     x = float(column) + (float(i) + 0.5) * step
-                    y = float(line) + (float(j) + 0.5) * step
+                    y = float(row) + (float(j) + 0.5) * step
                     total = add(total, radiance_at(scene, frame, x, y))
             mean = scale(total, step * step)
-            image[line, column, 0] = mean[0]
-            image[line, column, 1] = mean[1]
-            image[line, column, 2] = mean[2]
+            image[row, column, 0] = mean[0]
+            image[row, column, 1] = mean[1]
+            image[row, column, 2] = mean[2]
 
 
 def first_hit_rows(scene: SceneData, first: int, end: int, depths: Table, primitives: Table) -> None:
     """Distance and number of what the ray through each pixel's centre meets first; arrays of shape (height, width)."""
     frame = camera_frame(scene)
-    for line in range(first, end):
+    for row in range(first, end):
         for column in range(integer_of(scene, CAMERA_SIZE, 0)):
-            origin, direction = primary_ray(frame, float(column) + 0.5, float(line) + 0.5)
+            origin, direction = primary_ray(frame, float(column) + 0.5, float(row) + 0.5)
             distance, primitive = nearest_hit(scene, origin, direction, NOTHING)
-            depths[line, column] = distance
-            primitives[line, column] = primitive
+            depths[row, column] = distance
+            primitives[row, column] = primitive

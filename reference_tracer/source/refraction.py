@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def snell_discriminant(cosine: Scalar, ratio: Scalar) -> Scalar:
-    """g², written without cancellation for indices that are nearly equal."""
+    """The square of g = η·cos θt, which is negative for total reflection; without cancellation for nearly equal η."""
     return (ratio - 1.0) * (ratio + 1.0) + cosine * cosine
 
 
@@ -42,5 +42,5 @@ def fresnel_reflectance(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
 
 
 def medium_transmittance(absorption: Vector, distance: Scalar) -> Vector:
-    """exp(-σ·d), the law of Bouguer, Lambert and Beer; σ in 1/length."""
+    """The part exp(-σ·d) of light that a way d leaves (Bouguer, Lambert, Beer); σ in 1/length."""
     return (exp(-absorption[0] * distance), exp(-absorption[1] * distance), exp(-absorption[2] * distance))

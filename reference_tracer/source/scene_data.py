@@ -69,7 +69,7 @@ NUMBER_OF_TABLES = 54
 
 
 class SceneData(NamedTuple):
-    """A scene for a kernel."""
+    """A scene as kernels read it: tables of numbers and of integers, by number."""
 
     numbers: Table
     integers: Table

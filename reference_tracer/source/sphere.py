@@ -62,7 +62,7 @@ def root_outside(foot: Scalar, half_chord_squared: Scalar, product: Scalar) -> S
 
 
 def root_inside(foot: Scalar, product: Scalar) -> Scalar:
-    """The positive one of two roots of different signs, as the sum or the quotient of two numbers of one sign."""
+    """The positive one of two roots of different signs, for a ray that starts inside; without cancellation."""
     half_chord = sqrt(foot * foot - product)
     if foot > 0.0:
         return foot + half_chord

@@ -32,8 +32,8 @@ def is_even_square(scene: SceneData, board: int, point: Vector) -> bool:
     u = point[integer_of(scene, CHECKERBOARD_FIRST_AXIS, board)]
     v = point[integer_of(scene, CHECKERBOARD_SECOND_AXIS, board)]
     column = floor((u - number_of(scene, CHECKERBOARD_FIRST_OFFSET, board)) / size)
-    line = floor((v - number_of(scene, CHECKERBOARD_SECOND_OFFSET, board)) / size)
-    return (column + line) % 2 == 0
+    row = floor((v - number_of(scene, CHECKERBOARD_SECOND_OFFSET, board)) / size)
+    return (column + row) % 2 == 0
 
 
 def textured(scene: SceneData, constants: int, boards: int, material: int, point: Vector) -> Vector:

@@ -53,7 +53,7 @@ def nearest_hit(scene: SceneData, origin: Vector, direction: Vector, left: int) 
 
 
 def nearest_sphere(scene: SceneData, origin: Vector, direction: Vector, left: int) -> tuple[Scalar, int]:
-    """The nearest of all spheres."""
+    """Distance and number of the nearest sphere ahead; (infinity, -1) for none."""
     nearest = inf
     hit = NOTHING
     for sphere in range(rows_of(scene, SPHERE_RADIUS)):
@@ -65,7 +65,7 @@ def nearest_sphere(scene: SceneData, origin: Vector, direction: Vector, left: in
 
 
 def distance_to_sphere(scene: SceneData, origin: Vector, direction: Vector, left: int, sphere: int) -> Scalar:
-    """To the sphere of this number, or to its other side if the ray starts on it."""
+    """The distance to the sphere of this number, or to its other side if the ray starts on it."""
     center = vector_of(scene, SPHERE_CENTER, sphere)
     if sphere == left:
         return distance_to_other_side(origin, direction, center)
@@ -75,7 +75,7 @@ def distance_to_sphere(scene: SceneData, origin: Vector, direction: Vector, left
 def nearest_triangle(
     scene: SceneData, origin: Vector, direction: Vector, left: int, nearest: Scalar, hit: int
 ) -> tuple[Scalar, int]:
-    """The nearest of all triangles that are nearer than what has been found so far."""
+    """Distance and number of the nearest hit: `nearest` and `hit` so far, or those of a triangle that is nearer."""
     spheres = rows_of(scene, SPHERE_MATERIAL)
     if BOUNDING_VOLUMES:
         node = 0
@@ -103,7 +103,7 @@ def nearest_triangle(
 
 
 def distance_to_triangle(scene: SceneData, origin: Vector, direction: Vector, left: int, triangle: int) -> Scalar:
-    """To the triangle of this number, which is flat and so cannot be met again by a ray that starts on it."""
+    """The distance to the triangle of this number; infinity if the ray starts on it: it is flat and not met again."""
     if triangle == left:
         return inf
     return triangle_distance(

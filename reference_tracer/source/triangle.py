@@ -87,7 +87,7 @@ def turned(a: Vector, last: int) -> Vector:
 
 
 def sheared(a: Vector, shear_x: Scalar, shear_y: Scalar) -> tuple[Scalar, Scalar]:
-    """The place in the plane across the ray."""
+    """Where a vector ends in the plane across the ray, seen along the ray."""
     return (a[0] - shear_x * a[2], a[1] - shear_y * a[2])
 
 

@@ -22,7 +22,7 @@ def cache_folder() -> Path:
 
 @contextmanager
 def kept_file(path: Path) -> Iterator[Path]:
-    """As `unfinished_file`, for a file of the cache, whose folder is made where it is missing. Raises OSError."""
+    """An `unfinished_file` in the cache, whose folder is made where it is missing. Raises OSError."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with unfinished_file(path) as file:
         yield file

@@ -21,7 +21,10 @@ ROOT = Path(__file__).parents[2]
 
 @functools.cache
 def source_digest(*rooms: str) -> str:
-    """Of what the code in these rooms says; paths from ROOT, as in `scenes` or `comparisons/renderers/protocol.py`."""
+    """A digest of what the code in these rooms says.
+
+    Rooms are paths from ROOT: of folders, as `scenes`, or of files, as `comparisons/renderers/protocol.py`.
+    """
     return files_digest(path for room in rooms for path in files_of_room(room))
 
 
@@ -34,7 +37,7 @@ def files_of_room(room: str) -> list[Path]:
 
 
 def files_digest(paths: Iterable[Path]) -> str:
-    """Of what the code in these files says, in this order."""
+    """A digest of what the code in these files says, in this order."""
     digest = hashlib.sha256()
     for path in paths:
         digest.update(_statements(path).encode())

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def unfinished_file(path: Path) -> Iterator[Path]:
-    """Another name in the same folder, to write the file under; it gets its own name when the block ends well.
+    """A file under another name in the same folder, which gets its own name when the block ends well.
 
     Other processes may write the same file: the last one stays. What is broken off leaves an earlier file as it is.
     Raises OSError.
@@ -27,6 +27,6 @@ def unfinished_file(path: Path) -> Iterator[Path]:
 
 
 def write_whole(path: Path, content: str | bytes) -> None:
-    """Write a text, in UTF-8, or bytes. Raises OSError."""
+    """Write a text, in UTF-8, or bytes to a file that appears whole or not at all. Raises OSError."""
     with unfinished_file(path) as file:
         file.write_bytes(content.encode() if isinstance(content, str) else content)

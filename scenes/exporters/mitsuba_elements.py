@@ -20,17 +20,17 @@ def add_comment(parent: Element, text: str) -> None:
 
 
 def add_numbers(parent: Element, kind: str, **values: float) -> None:
-    """Parameters of one kind, `float` or `integer`."""
+    """Add parameters of one kind, `float` or `integer`, by their names."""
     for name, value in values.items():
         ElementTree.SubElement(parent, kind, name=name, value=repr(value))
 
 
 def add_text(parent: Element, name: str, value: str) -> None:
-    """A parameter that is a string."""
+    """Add a parameter whose value is a string."""
     ElementTree.SubElement(parent, "string", name=name, value=value)
 
 
 def add_vector(parent: Element, kind: str, name: str, value: Vector) -> None:
-    """A `point` or a `vector`."""
+    """Add a parameter that is a `point` or a `vector`."""
     x, y, z = map(repr, value)
     ElementTree.SubElement(parent, kind, name=name, x=x, y=y, z=z)

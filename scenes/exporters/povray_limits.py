@@ -98,7 +98,7 @@ def _refuses_overlaps(scene: Scene, shapes: list[Shape]) -> str | None:
 
 
 def _dielectric_of(scene: Scene, shape: Shape) -> Dielectric:
-    """That of a shape which is known to have one."""
+    """The dielectric of a shape which is known to have one."""
     dielectric = scene.materials[shape.material].dielectric
     assert dielectric is not None
     return dielectric

@@ -60,7 +60,7 @@ def declare_material(scene: Scene, identifier: str, name: str, material: Materia
 
 
 def interior_of(dielectric: Dielectric) -> str:
-    """`interior { ... }`: index, absorption, and the constant weight of total reflection."""
+    """POV-Ray's `interior { ... }` of a dielectric: index, absorption, and the constant weight of total reflection."""
     lines = [f"ior {dielectric.index_of_refraction!r}"]
     if dielectric.absorption and any(dielectric.absorption):
         lines.append(f"media {{ method 1 intervals 1 samples 1, 1 absorption {color(dielectric.absorption)}/unit }}")

@@ -11,12 +11,12 @@ if TYPE_CHECKING:
 
 
 def vector(values: Iterable[float]) -> str:
-    """A vector whose components read back as the same float64."""
+    """A vector in POV-Ray's language, whose components read back as the same float64."""
     return f"<{', '.join(repr(float(value)) for value in values)}>"
 
 
 def color(values: Sequence[float]) -> str:
-    """A colour."""
+    """A colour in POV-Ray's language, whose components read back as the same float64."""
     return f"rgb {vector(values)}"
 
 
@@ -26,7 +26,7 @@ def comment(text: str) -> str:
 
 
 def block(keyword: str, *lines: str) -> str:
-    """`keyword { ... }` with indented lines; on one line if there is only one."""
+    """POV-Ray's `keyword { ... }` with these lines indented; on one line if there is only one."""
     if len(lines) == 1 and "\n" not in lines[0]:
         return f"{keyword} {{ {lines[0]} }}"
     inner = "\n".join(lines).replace("\n", "\n  ")

@@ -22,7 +22,7 @@ def triangles_of_scene(scene: Scene) -> NDArray[np.float64]:
 
 
 def material_of_each_triangle(scene: Scene) -> list[str]:
-    """The names of the triangles' materials."""
+    """The name of each triangle's material, in the order of `triangles_of_scene`."""
     return [
         shape.material
         for shape in scene.objects
@@ -32,12 +32,12 @@ def material_of_each_triangle(scene: Scene) -> list[str]:
 
 
 def triangles_of(shape: Triangle | Mesh) -> NDArray[np.float64]:
-    """The corners of its triangles in face order, shape (faces, 3, 3)."""
+    """The corners of the triangles of a mesh or triangle, in the order of faces; shape (faces, 3, 3)."""
     if isinstance(shape, Triangle):
         return np.array([shape.vertices], dtype=np.float64)
     return np.array(shape.vertices, dtype=np.float64)[np.array(shape.faces, dtype=np.int64)]
 
 
 def triangle_lists(shape: Triangle | Mesh) -> TriangleLists:
-    """Its vertices and faces; a triangle has one face."""
+    """The vertices and the faces of a mesh; a triangle has its three vertices and one face."""
     return (shape.vertices, shape.faces) if isinstance(shape, Mesh) else (shape.vertices, ((0, 1, 2),))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from raytruth.scenes.families import contacts, lights, optics, sizes
+from raytruth.scenes.families import contacts, drawn, lights, optics, sizes
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -38,9 +38,10 @@ def _both_signs(*sizes: float) -> tuple[float, ...]:
 
 
 ULP = 2.0**-52
-"""Of 1; families of ulps use their small multiples."""
+"""The unit in the last place of 1; families of ulps use small multiples of it."""
 
 FAMILIES: dict[str, Family] = {
+    "drawn": Family(drawn.drawn, _powers(-4, -2, 0, 2, 4)),
     "scale": Family(sizes.scale, _powers(-9, -6, -3, 0, 3, 6, 9)),
     "sphere-size": Family(sizes.sphere_size, _powers(-5, -3, -1, 0, 1, 3, 5, 7)),
     "above-huge-sphere": Family(sizes.above_huge_sphere, _powers(3, 5, 7)),

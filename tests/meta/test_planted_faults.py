@@ -12,7 +12,7 @@ import pytest
 
 from raytruth.comparisons.faults.catalogue import all_faults
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
-from raytruth.comparisons.judgement.verdict import Evidence, gather_evidence
+from raytruth.comparisons.judgement.verdict import Expectation, expectation_of
 from raytruth.comparisons.matrix.cell import run_cell
 from raytruth.comparisons.matrix.comparability import depth_or_reason
 from raytruth.comparisons.records.renderings import Rays
@@ -65,9 +65,9 @@ def test_a_planted_fault_makes_a_cell_fail_that_passes_without_it(
 def test_brightness_off_by_one_part_in_ten_thousand_makes_a_cell_fail(tmp_path: Path) -> None:
     scene = _small("single-sphere")
     rendering = _rendered("single-sphere", DIRECT)
-    evidence = _evidence(scene, all_renderers()["mitsuba"].error_model, {})
+    expectation = _expectation(scene, all_renderers()["mitsuba"].error_model, {})
     brighter = _Prepared("mitsuba", rendering.__class__(rendering.image * np.float32(1 + 1e-4), 0.0))
-    cell = run_cell(place_of(scene, brighter, DIRECT[1]), 1, evidence, tmp_path)
+    cell = run_cell(place_of(scene, brighter, DIRECT[1]), 1, expectation, tmp_path)
     assert cell.verdict == Verdict.FAIL
 
 
@@ -97,15 +97,15 @@ class _Prepared:
 def _judge(scene_name: str, judge: tuple[str, str], overrides: Mapping[str, Callable[..., Any]], folder: Path) -> Cell:
     """The cell of a right renderer, with a truth that may have a fault."""
     scene = _small(scene_name)
-    evidence = _evidence(scene, all_renderers()[judge[0]].error_model, overrides)
+    expectation = _expectation(scene, all_renderers()[judge[0]].error_model, overrides)
     renderer = _Prepared(judge[0], _rendered(scene_name, judge))
-    return run_cell(place_of(scene, renderer, judge[1]), 1, evidence, folder)
+    return run_cell(place_of(scene, renderer, judge[1]), 1, expectation, folder)
 
 
-def _evidence(scene: Scene, error_model: Any, overrides: Mapping[str, Callable[..., Any]]) -> Evidence:
+def _expectation(scene: Scene, error_model: Any, overrides: Mapping[str, Callable[..., Any]]) -> Expectation:
     behaviour = Behaviour(overrides)
     truth = np.array(render(scene, FLOAT, behaviour), dtype=np.float64)
-    return gather_evidence(scene, truth, feasible_set(scene, error_model, behaviour))
+    return expectation_of(scene, truth, feasible_set(scene, error_model, behaviour))
 
 
 @cache

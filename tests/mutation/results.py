@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from tests.mutation.mutants import Mutant
 
-RESULTS_FILE = Path(__file__).with_name("results.json")
+MUTANTS_FILE = Path(__file__).with_name("results.json")
 REASONS_FILE = Path(__file__).with_name("equivalent.json")
 
 
@@ -80,12 +80,12 @@ def judged(mutants: Iterable[Mutant], by_tests: Iterable[str], by_matrix: Iterab
 
 def read_results() -> Results:
     """What was kept; nothing if there is none."""
-    return Results.model_validate_json(RESULTS_FILE.read_bytes()) if RESULTS_FILE.exists() else Results(files={})
+    return Results.model_validate_json(MUTANTS_FILE.read_bytes()) if MUTANTS_FILE.exists() else Results(files={})
 
 
 def write_results(results: Results) -> None:
     """Keep it."""
-    RESULTS_FILE.write_text(results.model_dump_json(indent=1) + "\n", encoding="utf-8")
+    MUTANTS_FILE.write_text(results.model_dump_json(indent=1) + "\n", encoding="utf-8")
 
 
 def read_reasons() -> Reasons:

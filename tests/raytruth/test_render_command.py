@@ -7,12 +7,12 @@ import OpenImageIO
 import pytest
 
 from raytruth import render_command
-from raytruth.api import images
 from raytruth.comparisons.records.image_files import read_image
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.rendering import render
 from raytruth.scenes.library import open_scene
 from tests.raytruth.running import document, refusal, run
+from tests.reference_tracer.small_scenes import lamp, small_scene, square
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -119,16 +119,21 @@ def test_a_folder_in_the_images_place_is_refused(tmp_path: Path, capsys: pytest.
     assert "is a folder" in refusal(capsys, "render", "single-sphere", "-o", str(tmp_path / "image.png"))
 
 
-def test_a_pixel_without_a_value_is_one_sentence(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.clause("ILL-9", "ARI-1")
+def test_a_light_at_a_seen_point_is_black_there_in_interpreted_floats_as_in_compiled_ones(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def divide(*_: object, **__: object) -> None:
-        raise ZeroDivisionError("float division by zero")
-
-    monkeypatch.setattr(images.rendering, "render", divide)
-    path = tmp_path / "image.exr"
-    assert "pixel without a value" in refusal(capsys, "render", "single-sphere", "-o", str(path), *SMALL)
-    assert list(tmp_path.iterdir()) == []
+    scene = small_scene(
+        width=3, height=3, objects=[square("white", 0.0)], lights=[lamp((0.0, 0.0, 0.0), 1.0, "inverse_square")]
+    )
+    (tmp_path / "scene.json").write_text(scene.model_dump_json(exclude={"name"}, exclude_none=True))
+    images = []
+    for arithmetic in ("float", "float64"):
+        out = tmp_path / f"{arithmetic}.exr"
+        assert run(capsys, "render", str(tmp_path / "scene.json"), "-o", str(out), "--arithmetic", arithmetic)[0] == 0
+        images.append(read_image(out))
+    assert images[0][1, 1].tolist() == [0.0, 0.0, 0.0]
+    np.testing.assert_array_equal(*images)
 
 
 def test_an_unknown_scene_is_refused_before_any_work(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,3 +1,5 @@
+import math
+
 import pytest
 
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
@@ -151,10 +153,13 @@ def test_a_tree_too_large_to_read_is_refused() -> None:
         explain(scene, scene.camera.width // 2, scene.camera.height // 2)
 
 
-def test_a_pixel_without_a_value_is_told_in_one_sentence() -> None:
+@pytest.mark.clause("ILL-9")
+def test_a_light_at_the_very_point_that_is_seen_adds_nothing() -> None:
     scene = open_scene("single-sphere")
     tree = explained("single-sphere")
     assert tree.rays[0].hit is not None
-    light = scene.lights[0].model_copy(update={"position": tree.rays[0].hit.point})
-    with pytest.raises(ExplanationError, match="no value in Python floats"):
-        explain(scene.model_copy(update={"lights": (light,)}), tree.x, tree.y)
+    light = scene.lights[0].model_copy(update={"position": tree.rays[0].hit.point, "falloff": "inverse_square"})
+    (term,) = explain(scene.model_copy(update={"lights": (light,)}), tree.x, tree.y).rays[0].lights
+    assert term.attenuation == math.inf
+    assert math.isnan(term.cosine)
+    assert term.radiance == (0.0, 0.0, 0.0)

@@ -155,28 +155,6 @@ def _without_image(directory: Path, names: Names) -> dict[str, Any]:
 
 def _evidence(directory: Path, names: Names, truth: Image, render: Image, tolerances: Image) -> dict[str, Any]:
     failing = int((~(tolerances <= 1)).sum())
-    folder = _folder(names)
-    (directory / folder).mkdir(parents=True, exist_ok=True)
-    paths = {}
-    of_channels = tolerances[..., None] * np.array([0.5, 1, 0.25]) if (tolerances >= 0).all() else tolerances[..., None]
-    distances = np.broadcast_to(of_channels, truth.shape)
-    for kind, image in {"truth": truth, "render": render, "tolerances": distances}.items():
-        paths[kind] = f"{folder}/{kind}.exr"
-        write_image(directory / paths[kind], np.ascontiguousarray(image, dtype=np.float32))
-    paths["feasible"] = f"{folder}/feasible.exr"
-    write_pixel_evidence(directory / paths["feasible"], _pixel_evidence(truth, tolerances))
-    x, y = FAILING_PIXEL
-    centre = truth[y, x].tolist()
-    bounds = {"low": [c - 1e-6 for c in centre], "high": [c + 1e-6 for c in centre]}
-    worst = {
-        "x": x,
-        "y": y,
-        "value": render[y, x].tolist(),
-        "truth": centre,
-        **bounds,
-        "tolerances": 300 * bool(failing),
-    }
-    errors = {"largest_depth_error": 2.4e-7, "largest_position_error": 5.1e-7, "largest_normal_error": 3.3e-7}
     return {
         "largest_error": float(np.nanmax(np.abs(render - truth))),
         "seconds": 0.0421,
@@ -187,9 +165,17 @@ def _evidence(directory: Path, names: Names, truth: Image, render: Image, tolera
             "unjudged": 512,
             "capped": 1,
             "ambiguous": 37,
-            "worst": worst,
+            "worst": _worst(truth, render, 300 * bool(failing)),
         },
-        "first_hits": {"compared": 4059, "primitive_mismatches": 0, "ambiguous": 37, "failing": 0, **errors},
+        "first_hits": {
+            "compared": 4059,
+            "primitive_mismatches": 0,
+            "ambiguous": 37,
+            "failing": 0,
+            "largest_depth_error": 2.4e-7,
+            "largest_position_error": 5.1e-7,
+            "largest_normal_error": 3.3e-7,
+        },
         "metrics": {
             "largest_difference": 1.2e-6,
             "mean_difference": -3.1e-8,
@@ -197,8 +183,29 @@ def _evidence(directory: Path, names: Names, truth: Image, render: Image, tolera
             "psnr": 121.4,
             "ssim": 1.0,
         },
-        "images": paths,
+        "images": _written(directory, _folder(names), truth, render, tolerances),
     }
+
+
+def _worst(truth: Image, render: Image, tolerances: float) -> dict[str, Any]:
+    x, y = FAILING_PIXEL
+    centre = truth[y, x].tolist()
+    bounds = {"low": [c - 1e-6 for c in centre], "high": [c + 1e-6 for c in centre]}
+    return {"x": x, "y": y, "value": render[y, x].tolist(), "truth": centre, **bounds, "tolerances": tolerances}
+
+
+def _written(directory: Path, folder: str, truth: Image, render: Image, tolerances: Image) -> dict[str, str]:
+    """The paths of a cell's images in the results, which are written there."""
+    (directory / folder).mkdir(parents=True, exist_ok=True)
+    paths = {}
+    of_channels = tolerances[..., None] * np.array([0.5, 1, 0.25]) if (tolerances >= 0).all() else tolerances[..., None]
+    distances = np.broadcast_to(of_channels, truth.shape)
+    for kind, image in {"truth": truth, "render": render, "tolerances": distances}.items():
+        paths[kind] = f"{folder}/{kind}.exr"
+        write_image(directory / paths[kind], np.ascontiguousarray(image, dtype=np.float32))
+    paths["feasible"] = f"{folder}/feasible.exr"
+    write_pixel_evidence(directory / paths["feasible"], _pixel_evidence(truth, tolerances))
+    return paths
 
 
 def _pixel_evidence(truth: Image, tolerances: Image) -> PixelEvidence:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import pytest
 from rich.console import Console
 
-from raytruth.comparisons.records.kill_results import RESULTS_FILE, FaultResult, KillResults, VariantResult
+from raytruth.comparisons.records.kill_results import KILLS_FILE, FaultResult, KillResults, VariantResult
 from raytruth.reports.kills import SHADES, gate_counts, margin, print_kills, shade, summary, write_kill_report
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def test_the_console_names_survivors_and_false_alarms() -> None:
 
 
 def test_the_page_shows_every_margin_and_escapes_all_words(tmp_path: Path) -> None:
-    (tmp_path / RESULTS_FILE).write_text(RESULTS.model_dump_json(), encoding="utf-8")
+    (tmp_path / KILLS_FILE).write_text(RESULTS.model_dump_json(), encoding="utf-8")
     page = write_kill_report(tmp_path)
     text = page.read_text(encoding="utf-8")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["faults.html", "faults.json"]

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.clause("SCN-2", "SCN-3")
 
 # A word of a mesh file, as the grammar has it, whose exponent does not make an exact fraction of it too long.
 DECIMALS = st.from_regex(rb"[-+]?([0-9]{1,25}\.?[0-9]{0,25}|\.[0-9]{1,25})([eE][-+]?[0-9]{1,2})?", fullmatch=True)
-FLOAT32 = st.floats(width=32, allow_nan=False, allow_infinity=False)
+FLOAT32_NUMBERS = st.floats(width=32, allow_nan=False, allow_infinity=False)
 
 
 def is_nearest(value: float, stated: Fraction, below: float, above: float, is_even: bool) -> bool:
@@ -48,7 +48,7 @@ def test_a_decimal_number_is_the_nearest_double(word: bytes) -> None:
     assert is_nearest(value, Fraction(word.decode()), *neighbours, is_even)
 
 
-@given(FLOAT32.filter(lambda value: 0 < value < 1e30), st.integers(-2, 2))
+@given(FLOAT32_NUMBERS.filter(lambda value: 0 < value < 1e30), st.integers(-2, 2))
 @example(1.0, 0)
 @example(1.0, 1)
 @example(2.0**-149, -1)
@@ -66,7 +66,7 @@ def test_beside_a_tie_a_number_is_the_nearest_of_binary32(below: float, nudge: i
     assert nearest_float32(f"-{digits.numerator}e-200".encode()) == -value
 
 
-@given(FLOAT32)
+@given(FLOAT32_NUMBERS)
 def test_what_binary32_holds_is_read_back(value: float) -> None:
     assert nearest_float32(repr(value).encode()) == value
 

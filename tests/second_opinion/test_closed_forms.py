@@ -93,7 +93,7 @@ def check(case: Case, x: float, y: float) -> None:
 
 
 def edge_on_line(case: Case) -> tuple[float, float] | None:
-    """Two neighbouring floats on different sides of the case's edge in its line of the image; None if there is none."""
+    """Two neighbouring floats on different sides of the case's edge in its row of the image; None if there is none."""
     assert case.side is not None
     with mp.workdps(DIGITS):
         columns = [float(x) for x in range(0, make.WIDTH + 1, 4)]
@@ -126,10 +126,10 @@ def test_a_pixel_is_seen_through_its_centre() -> None:
         image = prepared.arithmetic.image(make.HEIGHT, make.WIDTH, 3)
         prepared.kernel.render_rows(prepared.data, 1, 0, make.HEIGHT, image)
     lit = 0
-    for line in range(make.HEIGHT):
+    for row in range(make.HEIGHT):
         for column in range(make.WIDTH):
-            x, y = column + 0.5, line + 0.5
+            x, y = column + 0.5, row + 0.5
             opinion = with_own_error(lambda x=x, y=y: case.radiance(x, y))
-            assert agree(list(image[line, column]), opinion), (column, line)
+            assert agree(list(image[row, column]), opinion), (column, row)
             lit += bool(opinion[0] > 0)
     assert lit > 0

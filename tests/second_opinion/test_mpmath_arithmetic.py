@@ -43,19 +43,19 @@ def test_mpmath_agrees_with_the_certified_truth_at_sampled_pixels(name: str) -> 
     numbers = Random(name)
     decided = 0
     for _ in range(PIXELS):
-        column, line = numbers.randrange(scene.camera.width), numbers.randrange(scene.camera.height)
-        pixel = certifier.pixel(column, line)
-        opinion = with_own_error(lambda column=column, line=line: traced(features, data, column, line))
+        column, row = numbers.randrange(scene.camera.width), numbers.randrange(scene.camera.height)
+        pixel = certifier.pixel(column, row)
+        opinion = with_own_error(lambda column=column, row=row: traced(features, data, column, row))
         decided += pixel.undecided is None
         outcomes = (pixel,) if pixel.undecided is None else pixel.undecided.outcomes
-        assert any(holds(outcome, opinion) for outcome in outcomes), (column, line, pixel, opinion)
+        assert any(holds(outcome, opinion) for outcome in outcomes), (column, row, pixel, opinion)
     assert decided > 0
 
 
-def traced(features: frozenset[Feature], data: SceneData, column: int, line: int) -> Any:
+def traced(features: frozenset[Feature], data: SceneData, column: int, row: int) -> Any:
     """The pixel's value in the precision that mpmath is working in."""
     kernel = kernel_in_mpmath(features, mp.prec)
-    return kernel.radiance_at(data, kernel.camera_frame(data), column + mpf(0.5), line + mpf(0.5))
+    return kernel.radiance_at(data, kernel.camera_frame(data), column + mpf(0.5), row + mpf(0.5))
 
 
 @cache

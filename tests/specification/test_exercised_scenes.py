@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from raytruth.comparisons.records.kill_results import RESULTS_FILE, FaultResult, KillResults
+from raytruth.comparisons.records.kill_results import KILLS_FILE, FaultResult, KillResults
 from raytruth.scenes.library import library_names
 from raytruth.specification.exercised_scenes import scenes_by_fault, scenes_by_function
 
@@ -27,5 +27,5 @@ def test_a_fault_stands_beside_the_scenes_that_killed_it(tmp_path: Path) -> None
     known = {"words": "", "margins": {}, "errors": {}, "gates": (), "clause": "A-1", "hint": "", "margin": None}
     fault = FaultResult.model_validate({"name": "one", "killed": True, "killed_by": ("x", "y"), **known})
     results = KillResults(faults=(fault,), variants=(), seconds=0.0, scenes={}, gates=(), quick=())
-    (tmp_path / RESULTS_FILE).write_text(results.model_dump_json(), encoding="utf-8")
+    (tmp_path / KILLS_FILE).write_text(results.model_dump_json(), encoding="utf-8")
     assert scenes_by_fault(tmp_path) == {"one": ("x", "y")}

@@ -17,16 +17,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class DepthErrors:
-    """Of each triangle, at any pixel that it may cover; shape (n,). Infinity for one seen too nearly edge on."""
+    """How far depths may be off at any pixel that a triangle may cover, shape (n,); infinite for one nearly edge on."""
 
     bounds: Array
-    """On the error of the depth in the window, in units of the range from near to far."""
+    """Bounds on the error of the depth in the window, in units of the range from near to far."""
     beyond: Array
-    """On the sum of absolute values of a pixel centre's barycentric coordinates: 1, and more where it is outside."""
+    """Bounds on the sum of a pixel centre's absolute barycentric coordinates: 1, and more where it is outside."""
 
 
 def depth_errors(scene: Scene, volume: ViewVolume, snapping: float) -> DepthErrors:
-    """Bounds for all triangles of a scene, whose corners are snapped by up to so many pixels."""
+    """Bounds on the depths of all triangles of a scene, whose corners are snapped by up to `snapping` pixels."""
     near, far = volume.near, volume.far
     is_perspective = scene.camera.projection == "perspective"
     # z in clip coordinates is α·depth - β, half of which over w is the depth in the window, shifted by 1/2.

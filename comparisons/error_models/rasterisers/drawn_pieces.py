@@ -61,20 +61,23 @@ def movement_in_space(scene: Scene, volume: ViewVolume) -> float:
 
 
 def extent_of(scene: Scene) -> float:
-    """|v| + |p| of the farthest corner v from the origin, p the camera's position."""
+    """The bound |v| + |p| on coordinates: v is the corner that is farthest from the origin, p the camera's position."""
     farthest = np.linalg.norm(triangles_of_scene(scene), axis=2).max(initial=0.0)
     return float(farthest + np.linalg.norm(scene.camera.position))
 
 
 def cut_triangles(corners: Array, volume: ViewVolume) -> NDArray[np.bool_]:
-    """Which triangles are not drawn whole."""
+    """Which of the triangles, shape (n, 3, 5), are cut at a border of the view and so not drawn whole; shape (n,)."""
     return ~is_inside(corners, _kept(volume))
 
 
 def of_each_triangle(
     scene: Scene, volume: ViewVolume, largest: Callable[[DrawnPieces, int], Array], nothing: list[float]
 ) -> Array:
-    """What is largest over all pieces of each triangle, shape (k, n); `nothing`, k numbers, where none is drawn.
+    """The largest of some values over all pieces that a triangle is drawn in, for each triangle; shape (k, n).
+
+    `largest` gives k values for each of m pieces, shape (k, m), from these and the roundoffs of their clip coordinates.
+    `nothing` has the k values of a triangle of which nothing is drawn.
 
     `largest` gives it for each of m pieces, shape (k, m), from these and the roundoffs of their clip coordinates.
     """
@@ -99,7 +102,7 @@ def _fans(polygon: Array) -> Array:
 
 @dataclass(frozen=True)
 class DrawnPieces:
-    """m triangles that are drawn whole."""
+    """m pieces of triangles that are each drawn whole: triangles, or what is left of cut ones."""
 
     corners: Array
     """Homogeneous coordinates (x, y, w, depth, 1), shape (m, 3, 5)."""
@@ -112,7 +115,7 @@ class DrawnPieces:
 
     @classmethod
     def of(cls, corners: Array, scene: Scene, moved: float) -> DrawnPieces:
-        """From homogeneous coordinates; `moved` is their movement in space."""
+        """Pieces with these homogeneous corners, shape (m, 3, 5); rounding may move them in space by `moved`."""
         size = np.array([scene.camera.width, scene.camera.height])
         w = corners[..., 2]
         # A movement in space changes x/w by itself over w, and by x/w times as much of w, where |x/w| is at most 2.
@@ -126,7 +129,7 @@ class DrawnPieces:
 
     @cached_property
     def extent(self) -> Array:
-        """In x and in y, in pixels, shape (m, 2)."""
+        """The width and the height of each piece in the window, in pixels, movements included; shape (m, 2)."""
         extent: Array = np.abs(_edges(self.places)).max(axis=1) + 2 * self.moved[:, np.newaxis]
         return extent
 
@@ -144,14 +147,14 @@ class DrawnPieces:
 
     @cached_property
     def shape(self) -> Array:
-        """κ, twice the extents' product over twice the area: 2 at least."""
+        """κ, twice a piece's width times height over twice its least area: 2 at least, and large for a sliver."""
         with np.errstate(divide="ignore"):
             shape: Array = 2 * self.extent.prod(axis=1) / self.double_area
         return shape
 
     @cached_property
     def is_bounded(self) -> NDArray[np.bool_]:
-        """Whether bounds of first order hold."""
+        """Whether error bounds of first order hold for a piece, which is not too thin for them; shape (m,)."""
         return (self.double_area > 0) & (self.shape < LARGEST_SHAPE)
 
     def beyond(self, snapping: float) -> Array:

@@ -32,7 +32,7 @@ PERSPECTIVE_ROUNDOFFS = 3
 
 @dataclass(frozen=True)
 class PositionErrors:
-    """Of each triangle, at any pixel that it may cover; shape (n,). Infinity for one seen too nearly edge on."""
+    """How far lit positions may be off at any pixel of a triangle, shape (n,); infinite for one nearly edge on."""
 
     bounds: Array
     """How far along each axis a fragment may be from where its ray meets the triangle that float32 makes of this."""
@@ -45,7 +45,7 @@ class PositionErrors:
 
 
 def position_errors(scene: Scene, volume: ViewVolume, snapping: float) -> PositionErrors:
-    """Bounds for all triangles of a scene, whose corners are snapped by up to so many pixels."""
+    """Bounds on lit positions for all triangles of a scene, whose corners are snapped by up to `snapping` pixels."""
     moved = movement_in_space(scene, volume)
     scale = np.array([*half_extent(scene), 1.0])
 
@@ -79,7 +79,7 @@ def _of_weights(inverse: Array, beyond: Array) -> tuple[Array, Array]:
 def _interpolation_error(
     pieces: DrawnPieces, view: Array, inverse: Array, beyond: Array, least: Array, in_space: Array
 ) -> Array:
-    """By the interpolation of a/w, of 1/w, and the division, along the worst axis; shape (m,)."""
+    """The error by interpolating a/w and 1/w and by the division, along the worst axis; shape (m,)."""
     of_inverse = _quotient_error(pieces, inverse, beyond)
     farthest = np.abs(view).max(axis=(1, 2)) * in_space
     of_quotients = np.max([_quotient_error(pieces, view[..., axis] * inverse, beyond) for axis in range(3)], axis=0)
@@ -89,7 +89,7 @@ def _interpolation_error(
 
 
 def _quotient_error(pieces: DrawnPieces, values: Array, beyond: Array) -> Array:
-    """Of what is interpolated, and rounded before."""
+    """The error of a value that is rounded at the corners and then interpolated."""
     rounded_before: Array = QUOTIENT_ROUNDOFFS * ROUNDOFF * beyond * np.abs(values).max(axis=1)
     return pieces.plane_error(values, beyond) + rounded_before
 

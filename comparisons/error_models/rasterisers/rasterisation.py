@@ -40,14 +40,14 @@ if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
 
 origin_spread: Vector = (0.0, 0.0, 0.0)
-"""From a camera ray's origin to those of its bundle."""
+"""How far from a camera ray's origin those of its bundle are, along each axis."""
 direction_spread: Vector = (0.0, 0.0, 0.0)
 corner_spread: Vector = (0.0, 0.0, 0.0)
-"""From a corner to what float32 makes of it."""
+"""How far float32 may move a corner in space, along each axis."""
 beyond: list[Scalar] = []
-"""Of each triangle: how often that counts at a pixel's centre that is a little outside."""
+"""For each triangle: how many times that counts at a pixel's centre a little outside of it."""
 depth_error: list[Scalar] = []
-"""Of each triangle: of the distance, or with perspective of its inverse."""
+"""For each triangle: the error of the distance, or with perspective of its inverse."""
 
 
 def rasterisation_behaviour(rasterisation: Rasterisation | None, scene: Scene) -> Behaviour:

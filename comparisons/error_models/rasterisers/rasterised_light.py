@@ -69,22 +69,22 @@ LEAST_COSINE = 1e-5
 """What VTK takes for the highlight's cosine where that is less (vtkOpenGLPolyDataMapper.cxx, ReplaceShaderLight)."""
 
 window_spread: Vector = (0.0, 0.0, 0.0)
-"""From a ray's direction, or of parallel rays its origin, to where rounding puts a corner in the window."""
+"""How far rounding of corners in the window may turn a ray's direction, or move the origin of a parallel ray."""
 space_spread: Vector = (0.0, 0.0, 0.0)
-"""From a corner to what float32 makes of it."""
+"""How far float32 may move a corner in space, along each axis."""
 in_window: list[Scalar] = []
-"""Of each triangle: how often the former counts."""
+"""For each triangle: how many times `window_spread` counts."""
 in_space: list[Scalar] = []
-"""Of each triangle: how often the latter counts."""
+"""For each triangle: how many times `space_spread` counts."""
 position_spread: list[Scalar] = []
-"""Of each triangle: from where a ray meets it to where it is lit, along each axis, and what a light is off besides."""
+"""For each triangle: how far from where a ray meets it it is lit, along each axis, and what a light is off besides."""
 side_spread: list[Scalar] = []
-"""Of each triangle: 0, or where snapping may turn it anything."""
+"""For each triangle: 0, or a ball that holds any number where snapping may turn it round."""
 normal_spread: Scalar = 0.0
 cosine_spread: Scalar = 0.0
 least_cosine: Scalar = 0.0
 power_spread: Scalar = 0.0
-"""For each unit of the exponent."""
+"""What the power function may be off, relatively, for each unit of the exponent."""
 exponential_spread: Scalar = 0.0
 
 
@@ -122,7 +122,7 @@ def light_behaviour(scene: Scene, snapping: float, in_image: Any, moved: float) 
 
 
 def about_zero(radii: Any) -> list[Any]:
-    """A ball around 0 of each radius."""
+    """For each radius a ball around 0 that has it."""
     return [arb(0, float(radius)) for radius in radii]
 
 
@@ -140,7 +140,7 @@ def drawn_surface(
     distance: Scalar,  # noqa: ARG001 - the signature of the function it stands for; it is the z-buffer's
     primitive: int,
 ) -> tuple[Vector, Vector, bool]:
-    """Where the fragment is lit, with which normal turned to the viewer, and whether its front is seen."""
+    """Where a fragment is lit, its normal turned to the viewer, and whether its front is seen, as VTK has them."""
     a, b, c = corners_of(scene, primitive)
     corner = add(a, scale(space_spread, in_space[primitive]))
     start = origin
@@ -206,7 +206,7 @@ def shadowed_by_any_triangle(
     to_light: Vector,
     light_is_near: bool,
 ) -> bool:
-    """As in the truth, by its own test: nothing of this ray is drawn."""
+    """Whether a triangle hides the light, by the truth's own test: VTK draws no shadow rays, and none is rounded."""
     for triangle in range(rows_of(scene, TRIANGLE_MATERIAL)):
         if triangle != primitive:
             a, b, c = corners_of(scene, triangle)

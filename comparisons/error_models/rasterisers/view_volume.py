@@ -26,13 +26,13 @@ IN_GUARD_BAND = np.array([[0.5, 0, 1, 0, 0], [-0.5, 0, 1, 0, 0], [0, 0.5, 1, 0, 
 
 @dataclass(frozen=True)
 class ViewVolume:
-    """What is seen lies between depths near and far, measured along the camera's forward direction."""
+    """The part of space that is drawn: between depths near and far, measured along the camera's forward direction."""
 
     near: float
     far: float
 
     def half_spaces(self) -> Array:
-        """Between the two planes."""
+        """The two half-spaces between which depths are seen, as factors of homogeneous corners; shape (2, 5)."""
         return np.array([[0, 0, 0, 1.0, -self.near], [0, 0, 0, -1.0, self.far]])
 
 
@@ -48,7 +48,7 @@ def homogeneous_corners(scene: Scene) -> Array:
 
 
 def camera_axes(scene: Scene) -> tuple[Array, Array, Array]:
-    """Unit vectors to the right, up and forward."""
+    """The camera's axes: unit vectors to the right, up and forward, shape (3,) each."""
     forward = np.subtract(scene.camera.look_at, scene.camera.position)
     forward /= np.linalg.norm(forward)
     right = np.cross(forward, scene.camera.up)
@@ -67,7 +67,7 @@ def half_extent(scene: Scene) -> tuple[float, float]:
 
 
 def view_volume(scene: Scene) -> ViewVolume:
-    """Tight around all that is in the picture; from 1 to 2 where nothing is."""
+    """The least volume that holds all that is in the picture; depths from 1 to 2 where nothing is."""
     corners = homogeneous_corners(scene)
     whole = is_inside(corners, IN_PICTURE)
     seen = [corners[whole].reshape(-1, 5), *(clipped(triangle, IN_PICTURE) for triangle in corners[~whole])]

@@ -53,7 +53,7 @@ class ClosedFormRenderer:
     install = "part of raytruth"
 
     def version(self) -> str:
-        """That of NumPy, which does the arithmetic."""
+        """The version of NumPy, which does the arithmetic."""
         return f"NumPy {np.__version__}"
 
     def refuses(self, scene: Scene) -> str | None:

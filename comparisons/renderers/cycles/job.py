@@ -20,7 +20,10 @@ class JobPart(BaseModel):
 
 
 class Texture(JobPart):
-    """A colour, or squares of two in the plane of two axes: `even` where the sum of both floors is."""
+    """A colour, or squares of two colours in the plane of two axes.
+
+    It is `even` where the sum of both whole numbers of squares, rounded down, is even.
+    """
 
     even: Triple
     odd: Triple | None = None
@@ -36,11 +39,11 @@ class Closure(JobPart):
     kind: Literal["diffuse", "mirror", "glass", "emission"]
     color: Texture
     index: float = 1.0
-    """Of refraction, relative to the medium outside."""
+    """The index of refraction, relative to the medium outside."""
 
 
 class Mesh(JobPart):
-    """Triangles that share vertices, flat."""
+    """Triangles that share vertices; each is flat, with one normal."""
 
     vertices: tuple[Triple, ...]
     faces: tuple[tuple[int, int, int], ...]
@@ -48,7 +51,7 @@ class Mesh(JobPart):
 
 
 class Ball(JobPart):
-    """A point of Cycles, which is a true sphere."""
+    """A sphere: what Cycles calls a point, and intersects as a true sphere."""
 
     center: Triple
     radius: float
@@ -72,11 +75,11 @@ class Camera(JobPart):
     """Right, up and backward: unit vectors."""
     position: Triple
     tangent: float | None
-    """Of half the vertical field of view; None: rays are parallel."""
+    """The tangent of half the vertical field of view; None: rays are parallel."""
     view_height: float = 1.0
-    """Of parallel rays."""
+    """The height of what parallel rays see, in units of the scene."""
     far: float
-    """Beyond all that is seen."""
+    """The distance of a far plane beyond all that is seen."""
     width: int
     height: int
 

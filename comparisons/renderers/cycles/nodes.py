@@ -58,7 +58,7 @@ def shader_of(tree: Nodes, closure: Closure) -> Any:
 
 
 def add_world(scene: Any, background: tuple[Triple, Triple] | None) -> None:
-    """What rays meet that meet nothing, and what no light is sent from."""
+    """Make the background: what a ray brings that meets nothing. It is no light that is sent from."""
     scene.world = bpy.data.worlds.new("world")
     scene.world.use_nodes = True
     scene.world.cycles.sampling_method = "NONE"

@@ -57,7 +57,7 @@ def job_of(scene: Scene, depth: int, batches: int, batch_samples: int) -> Job:
 
 
 def parts_of(scene: Scene, materials: list[Material], depth: int) -> Iterator[Part]:
-    """For each lamp one, and one for what shines by itself, also if there is no light at all."""
+    """The parts of a scene's light: one for each lamp, and always one for what shines by itself."""
     onward = [_specular_closures(scene, material) for material in materials]
     is_lit = bool(scene.lights) and any(material.diffuse for material in materials)
     if is_lit:
@@ -74,7 +74,7 @@ def parts_of(scene: Scene, materials: list[Material], depth: int) -> Iterator[Pa
 
 
 def camera_of(scene: Scene) -> Camera:
-    """The camera as axes and extent."""
+    """The scene's camera for Blender: its axes, its position and its extent."""
     camera = scene.camera
     forward = _unit(np.subtract(camera.look_at, camera.position))
     right = _unit(np.cross(forward, camera.up))
@@ -94,7 +94,7 @@ def camera_of(scene: Scene) -> Camera:
 
 
 def _far(scene: Scene) -> float:
-    """Beyond all objects; the farthest corner of any box around one of them is no nearer than they are."""
+    """A distance beyond all objects: no corner of a box around one of them is farther."""
     corners = [np.array(scene.camera.position)[None]]
     for shape in scene.objects:
         if isinstance(shape, Sphere):

@@ -123,7 +123,7 @@ def set_sampling(scene: BlenderScene, bounces: int) -> None:
 
 
 def set_output(scene: BlenderScene, camera: Camera) -> None:
-    """Linear float32, as computed."""
+    """Have images written in linear float32, as they are computed."""
     render = scene.render
     render.resolution_x, render.resolution_y, render.resolution_percentage = camera.width, camera.height, 100
     render.use_persistent_data = True  # else each seed would build the scene anew
@@ -135,7 +135,7 @@ def set_output(scene: BlenderScene, camera: Camera) -> None:
 
 
 def add_object(scene: BlenderScene, data: Any) -> Any:
-    """An object at the origin."""
+    """Put data (a mesh, a lamp, points) into the scene as an object at the origin."""
     item = bpy.data.objects.new("object", data)
     scene.collection.objects.link(item)
     return item

@@ -12,7 +12,7 @@ RESULT_FILE = "result.npz"
 
 
 class Light(BaseModel):
-    """Where shadow rays go."""
+    """A light, as shadow rays need to know it."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -22,7 +22,7 @@ class Light(BaseModel):
 
 
 class Job(BaseModel):
-    """First hits, and for each light the visibility of each hit."""
+    """What the worker has to find: first hits, and whether each hit sees each light."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

@@ -17,7 +17,7 @@ Vector = tuple[float, float, float]
 
 
 class Surface(BaseModel):
-    """A material's colours, times which VTK takes light."""
+    """The colours of a material, by which VTK multiplies the light that arrives."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -29,21 +29,21 @@ class Surface(BaseModel):
 
 
 class Lamp(BaseModel):
-    """A light."""
+    """A point light or a directional one, as VTK is told of it."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     position: Vector | None
     """None for parallel light."""
     direction: Vector
-    """In which parallel light travels."""
+    """The direction in which parallel light travels."""
     color: Vector
     attenuation: Vector
     """The divisor's constant, linear and quadratic coefficient."""
 
 
 class Job(BaseModel):
-    """One picture of all triangles."""
+    """What one picture of all triangles needs: the camera, its size in pixels, and the lamps."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

@@ -143,7 +143,7 @@ def _vector(values: NDArray[np.float64]) -> Vector:
 
 
 def lamps_of(scene: Scene) -> tuple[Lamp, ...]:
-    """The scene's lights."""
+    """The scene's lights as the worker is told of them, in the scene's order."""
     return tuple(_lamp(light) for light in scene.lights)
 
 

@@ -55,7 +55,7 @@ class Window:
         plotter.show(auto_close=False, interactive=False)
 
     def draw(self, actors: Iterable[vtkActor]) -> None:
-        """Draw these and nothing else."""
+        """Draw these actors and nothing else."""
         renderer = self.plotter.renderer
         renderer.RemoveAllViewProps()
         for actor in actors:
@@ -64,14 +64,14 @@ class Window:
         self.plotter.render_window.Render()
 
     def colors(self) -> Array:
-        """What has been drawn, 8 bits a channel."""
+        """The picture that has been drawn, RGB with 8 bits a channel; shape (height, width, 3)."""
         values = vtkUnsignedCharArray()
         # Of the back buffer, which is all that a window off screen has.
         self.plotter.render_window.GetPixelData(0, 0, self.job.width - 1, self.job.height - 1, 0, values, 0)
         return np.asarray(vtk_to_numpy(values).reshape(self.job.height, self.job.width, 3)[::-1])
 
     def depths(self) -> Array:
-        """Along the forward direction, from the z-buffer of what has been drawn."""
+        """Depths along the forward direction, from the z-buffer of what has been drawn; shape (height, width)."""
         job = self.job
         values = vtkFloatArray()
         self.plotter.render_window.GetZbufferData(0, 0, job.width - 1, job.height - 1, values)
@@ -81,7 +81,10 @@ class Window:
         return 1 / (1 / job.near - z * (1 / job.near - 1 / job.far))
 
     def floats(self, actors: Iterable[vtkActor]) -> Array:
-        """Draw these into a framebuffer of float32, which clips no colour; RGB. Raises RuntimeError where it cannot."""
+        """Draw actors into a framebuffer of float32, which clips no colour: RGB, shape (height, width, 3).
+
+        Raises RuntimeError where there is no such framebuffer.
+        """
         steps = vtkRenderPassCollection()
         steps.AddItem(vtkLightsPass())
         steps.AddItem(vtkOpaquePass())
@@ -106,14 +109,14 @@ class Window:
         return picture[::-1, :, :3]
 
     def light(self, lamps: Iterable[Lamp]) -> None:
-        """Put up these lights and no others."""
+        """Put these lamps into the window, and remove all others."""
         self.plotter.renderer.RemoveAllLights()
         self.plotter.renderer.AutomaticLightCreationOff()
         for lamp in lamps:
             self.plotter.renderer.AddLight(_light(lamp))
 
     def version(self) -> str:
-        """Of pyvista, VTK, and what VTK draws with. Raises RuntimeError where that is not llvmpipe."""
+        """Versions of pyvista, VTK, and what VTK draws with. Raises RuntimeError where that is not Mesa's llvmpipe."""
         capabilities = dict(
             line.split(": ", 1) for line in self.plotter.render_window.ReportCapabilities().splitlines() if ": " in line
         )

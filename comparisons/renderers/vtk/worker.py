@@ -58,7 +58,7 @@ def drawn_first_hits(window: Window, triangles: Array) -> dict[str, Array]:
 
 
 def drawn_light(window: Window, triangles: Array, surface: Array) -> Array:
-    """The picture of all surfaces in the job's light."""
+    """The picture of all surfaces in the job's light, linear RGB in float32, shape (height, width, 3)."""
     job = window.job
     window.light(job.lamps)
     window.plotter.renderer.SetBackground(*job.background)

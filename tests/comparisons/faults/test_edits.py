@@ -8,6 +8,7 @@ import pytest
 
 from raytruth.comparisons.faults.edits import Edit, after, at_the_start, before, edited
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, make_kernel
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.instantiation import kernel_source, source_module
 from raytruth.scenes.requirements import Feature
 
@@ -142,10 +143,10 @@ def test_another_function_than_the_tracers_can_be_edited() -> None:
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_without_edits_a_function_is_the_tracers(name: str) -> None:
     everything = frozenset(Feature)
-    assert kernel_source(everything, {name: edited(name)}) == kernel_source(everything)
+    assert kernel_source(everything, Behaviour({name: edited(name)})) == kernel_source(everything)
 
 
 def test_an_edited_function_runs_in_a_kernel() -> None:
     reversed_normal = edited("negate", Edit("-a[1]", "a[1]"))
-    kernel: Any = make_kernel(FLOAT, {"MIRRORS", "SPHERES"}, {"negate": reversed_normal})
+    kernel: Any = make_kernel(FLOAT, {"MIRRORS", "SPHERES"}, Behaviour({"negate": reversed_normal}))
     assert kernel.negate((1.0, 2.0, 3.0)) == (-1.0, 2.0, -3.0)

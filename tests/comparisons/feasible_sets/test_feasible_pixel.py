@@ -114,10 +114,10 @@ def test_no_pixel_has_more_outcomes_than_the_limit_and_every_one_is_finite(follo
     scene = library_scene(name, 8, 6)
     pixel = evaluator(follow, scene, 14)
     judged = 0
-    for line in range(6):
+    for row in range(6):
         for column in range(8):
             try:
-                boxes = pixel.colors(column, line)[0]
+                boxes = pixel.colors(column, row)[0]
             except UndecidableError:
                 continue
             judged += 1

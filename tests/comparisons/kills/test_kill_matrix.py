@@ -28,7 +28,7 @@ def endless(a: Vector) -> Vector:
 
 
 def failing(a: Vector) -> Vector:
-    return (a[0] / 0.0, a[1], a[2])
+    return a[3]  # type: ignore[misc]
 
 
 def ten_percent_longer(a: Vector) -> Vector:
@@ -59,7 +59,7 @@ def test_what_raises_or_hangs_or_writes_no_numbers_is_killed_as_an_error() -> No
     ]
     cells = {cell.subject: cell for cell in kills_on(SCENE, subjects).cells}
     assert all(cell.fails and cell.margin == np.inf for cell in cells.values())
-    assert cells["raises"].error == "ZeroDivisionError: float division by zero"
+    assert cells["raises"].error == "IndexError: tuple index out of range"
     assert cells["hangs"].error.startswith("TookTooLongError: more than ")
     assert cells["no number"].error == "pixels that are not a number"
     assert cells["no number"].gates == tuple(GATES)

@@ -20,5 +20,5 @@ def test_sums_of_blocks_are_spread_to_their_own_pixels() -> None:
     assert sums[..., 0].tolist() == [[0 + 1 + 5 + 6, 2 + 3 + 7 + 8, 4 + 9], [10 + 11, 12 + 13, 14]]
     shown = spread(sums, 2, image.shape)
     assert shown.shape == image.shape
-    for line, column in np.ndindex(3, 5):
-        assert shown[line, column, 0] == sums[line // 2, column // 2, 0]
+    for row, column in np.ndindex(3, 5):
+        assert shown[row, column, 0] == sums[row // 2, column // 2, 0]

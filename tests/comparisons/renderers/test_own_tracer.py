@@ -45,18 +45,18 @@ def test_first_hits_agree_with_the_explanation_of_each_pixel(tmp_path: Path) -> 
     hits = rendered(scene, 0, tmp_path).first_hits
     assert hits is not None
     assert hits.primitive.max() > 0
-    for line, column in ((0, 0), (4, 6), (7, 3), (8, 11)):
-        hit = explain(scene, column, line).rays[0].hit
+    for row, column in ((0, 0), (4, 6), (7, 3), (8, 11)):
+        hit = explain(scene, column, row).rays[0].hit
         if hit is None:
-            assert hits.primitive[line, column] == -1
-            assert np.isinf(hits.depth[line, column])
-            assert np.isnan(hits.position[line, column]).all()
+            assert hits.primitive[row, column] == -1
+            assert np.isinf(hits.depth[row, column])
+            assert np.isnan(hits.position[row, column]).all()
             continue
-        assert hits.primitive[line, column] == hit.primitive
+        assert hits.primitive[row, column] == hit.primitive
         # Compiled and interpreted code round alike up to the last place.
-        assert hits.depth[line, column] == pytest.approx(hit.distance, rel=4 * np.finfo(float).eps)
+        assert hits.depth[row, column] == pytest.approx(hit.distance, rel=4 * np.finfo(float).eps)
         outward = np.array(hit.normal) * (1 if hit.entering else -1)
-        assert np.abs(hits.normal[line, column] - outward).max() <= 2**-48  # a few roundoffs of unit vectors
+        assert np.abs(hits.normal[row, column] - outward).max() <= 2**-48  # a few roundoffs of unit vectors
 
 
 def test_it_refuses_nothing_and_is_never_stochastic() -> None:

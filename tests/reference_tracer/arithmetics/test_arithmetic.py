@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 import re
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 from flint import arb
 
-from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64, make_kernel
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64, make_kernel, over_zero
 from raytruth.reference_tracer.arithmetics.balls import Decisions, ball_arithmetic, every_outcome
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.rendering import first_hits, prepare, render
@@ -30,6 +31,8 @@ from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
+
+    from raytruth.reference_tracer.source.numbers import Scalar
 
 pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("ARI-1")]
 
@@ -133,14 +136,14 @@ def test_some_outcome_in_balls_holds_the_floats_of_a_pixel(name: str) -> None:
     decisions = Decisions()
     prepared = prepare(scene, put_in_force(ball_arithmetic(48, decisions)))  # as above
     frame = prepared.kernel.camera_frame(prepared.data)
-    for line, column in np.ndindex(image.shape[:2]):
-        x, y = arb(column + 0.5), arb(line + 0.5)
+    for row, column in np.ndindex(image.shape[:2]):
+        x, y = arb(column + 0.5), arb(row + 0.5)
         outcomes = every_outcome(
             lambda x=x, y=y: prepared.kernel.radiance_at(prepared.data, frame, x, y), decisions, 64
         )
-        pixel = [arb(float(part)) for part in image[line, column]]
+        pixel = [arb(float(part)) for part in image[row, column]]
         held = [all(ball.contains(part) for ball, part in zip(o, pixel, strict=True)) for o in outcomes]
-        assert any(held), (column, line)
+        assert any(held), (column, row)
 
 
 def half_diffuse(scene, material, point):  # type: ignore[no-untyped-def]  # noqa: ARG001 - the signature of diffuse
@@ -195,3 +198,22 @@ def test_a_kernel_in_float32_of_all_features_does_no_arithmetic_in_float64(
     lines = code.splitlines()
     assert any("fmul float" in line for line in lines)
     assert [line for line in lines if DOUBLE.search(line)] == []
+
+
+QUOTIENTS = [0.0, -0.0, 1.5, -2.0, math.inf, -math.inf, math.nan]
+
+
+@pytest.mark.clause("ARI-1", "NUM-2")
+@pytest.mark.parametrize("dividend", QUOTIENTS)
+@pytest.mark.parametrize("divisor", QUOTIENTS)
+def test_interpreted_floats_divide_by_zero_as_compiled_ones_do(dividend: float, divisor: float) -> None:
+    def quotient_of_quotients(a: Scalar, b: Scalar) -> Scalar:
+        return (a / b) / (b / a)
+
+    with np.errstate(all="ignore"):
+        expected = quotient_of_quotients(np.float64(dividend), np.float64(divisor))
+        single = np.float64(dividend) / np.float64(divisor)
+    kernel = make_kernel(FLOAT, set(Feature), {"snell_discriminant": quotient_of_quotients})
+    np.testing.assert_equal(kernel.snell_discriminant(dividend, divisor), float(expected))
+    if divisor == 0.0:
+        np.testing.assert_equal(over_zero(dividend, divisor), float(single))

@@ -56,6 +56,6 @@ def test_the_field_of_view_is_the_vertical_one_and_pixels_are_square() -> None:
 @pytest.mark.clause("CAM-4")
 def test_the_view_height_is_the_height_of_what_an_orthographic_camera_sees() -> None:
     image = rays(small_scene(projection="orthographic", width=2, height=4, extent=8.0))
-    assert [line[0][0][1] for line in image] == [3.0, 1.0, -1.0, -3.0]
+    assert [row[0][0][1] for row in image] == [3.0, 1.0, -1.0, -3.0]
     assert [ray[0][0] for ray in image[0]] == [-1.0, 1.0]
-    assert {ray[1] for line in image for ray in line} == {(0.0, 0.0, -1.0)}
+    assert {ray[1] for row in image for ray in row} == {(0.0, 0.0, -1.0)}

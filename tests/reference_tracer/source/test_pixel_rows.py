@@ -27,9 +27,9 @@ def board(width: int, height: int) -> Scene:
 @pytest.mark.clause("IMG-1")
 def test_rays_go_through_the_centres_of_pixels() -> None:
     image = render(board(4, 4), EXACT)[:, :, 0]
-    columns, lines = np.meshgrid(np.arange(4), np.arange(4))
+    columns, rows = np.meshgrid(np.arange(4), np.arange(4))
     # The top left square is x in [-2, -1], y in [1, 2]: floor(x) + floor(y) = -1, odd.
-    assert (image == (columns + lines) % 2).all()
+    assert (image == (columns + rows) % 2).all()
 
 
 @pytest.mark.clause("IMG-2")
@@ -70,6 +70,6 @@ def test_first_hits_are_those_of_rays_through_the_centres_of_pixels() -> None:
     slope = {"shape": "mesh", "vertices": corners, "faces": ((0, 1, 2), (0, 2, 3)), "material": "white"}
     scene = small_scene(width=4, height=3, extent=3.0, camera={"position": (0.0, 0.0, 64.0)}, objects=[slope])
     depths, _ = first_hits(prepare(scene, EXACT))
-    columns, lines = np.meshgrid(np.arange(4), np.arange(3))
-    x, y = columns + Fraction(1, 2) - 2, Fraction(3, 2) - (lines + Fraction(1, 2))
+    columns, rows = np.meshgrid(np.arange(4), np.arange(3))
+    x, y = columns + Fraction(1, 2) - 2, Fraction(3, 2) - (rows + Fraction(1, 2))
     assert (depths == 64 - (x + 2 * y)).all()

@@ -119,8 +119,8 @@ def test_a_checkerboard_has_its_squares_in_the_plane_of_its_two_axes(color, plan
     scene = scene_of(TRIANGLE, {"emission": {"radiance": {"checkerboard": board}}})
     # Squares begin at 0.25, so 0.5 is in the middle of number 0; the triangle lies in z = 1, that is in number 1.
     for x, column in ((-0.5, -2), (0.0, -1), (0.5, 0)):
-        for y, line in ((-0.5, -2), (0.0, -1)):
-            squares = {"x": column, "y": line, "z": 1}
+        for y, row in ((-0.5, -2), (0.0, -1)):
+            squares = {"x": column, "y": row, "z": 1}
             is_even = sum(squares[axis] for axis in plane) % 2 == 0
             assert color(scene, (x, y, 5.0)) == [float(is_even)] * 3
 

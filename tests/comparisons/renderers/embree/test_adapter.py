@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
-from raytruth.comparisons.judgement.verdict import Evidence, gather_evidence
+from raytruth.comparisons.judgement.verdict import Expectation, expectation_of
 from raytruth.comparisons.matrix.cell import run_cell
 from raytruth.comparisons.matrix.comparability import depth_or_reason
 from raytruth.comparisons.records.renderings import RendererError
@@ -51,14 +51,14 @@ ROOF = {"shape": "triangle", "vertices": ((-0.7, 0.4, 0.3), (0.8, 0.6, 0.1), (0.
 SUN = {"kind": "directional", "direction": (-0.3, -1.0, 0.2), "irradiance": (1.0, 2.0, 0.5)}
 
 
-def evidence(renderer: Renderer) -> Evidence:
+def expectation(renderer: Renderer) -> Expectation:
     scene = build(materials={"m": RED}, objects=[FLOOR, ROOF], lights=[POINT, SUN])
     truth = np.asarray(render(scene, FLOAT), dtype=np.float64)
-    return gather_evidence(scene, truth, feasible_set(scene, renderer.error_model))
+    return expectation_of(scene, truth, feasible_set(scene, renderer.error_model))
 
 
 def cell_of(renderer: Renderer, integrator: str, folder: Path) -> Cell:
-    by = evidence(renderer)
+    by = expectation(renderer)
     return run_cell(place_of(by.scene, renderer, integrator), 0, by, folder)
 
 
@@ -133,7 +133,7 @@ def test_a_worker_that_writes_nothing_is_an_error_even_over_an_old_result(
     (tmp_path / RESULT_FILE).write_bytes(b"old")
     monkeypatch.setattr(adapter, "run_isolated", lambda *_, **__: None)
     with pytest.raises(RendererError, match=r"Embree's result\.npz cannot be read"):
-        embree().render(build(objects=[ROOF]), "first-hits", 0, evidence(embree()).rays, tmp_path)
+        embree().render(build(objects=[ROOF]), "first-hits", 0, expectation(embree()).rays, tmp_path)
 
 
 def test_where_the_worker_cannot_run_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:

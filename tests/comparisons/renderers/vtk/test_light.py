@@ -38,14 +38,14 @@ from tests.comparisons.lit_triangles import (
     plates,
     radiometric_plates,
 )
-from tests.comparisons.renderers.vtk.vtk_cells import cell_of, evidence_of, needs_vtk
+from tests.comparisons.renderers.vtk.vtk_cells import cell_of, expectation_for, needs_vtk
 from tests.scenes.exporter_scenes import BALL, BOARD, GLASS, MIRROR, build
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from raytruth.comparisons.judgement.verdict import Evidence
+    from raytruth.comparisons.judgement.verdict import Expectation
     from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("REN-4")
@@ -103,8 +103,8 @@ def test_the_order_of_corners_does_not_matter(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def evidence() -> dict[str, Evidence]:
-    return {name: evidence_of(LIT[name], with_colors=True) for name in ("plates", "physical light")}
+def expectation() -> dict[str, Expectation]:
+    return {name: expectation_for(LIT[name], with_colors=True) for name in ("plates", "physical light")}
 
 
 Parts = tuple[tuple[Any, ...], tuple[Any, ...]]
@@ -168,7 +168,7 @@ FAULTS = [
 def test_a_fault_in_the_light_fails(
     name: str,
     fault: Callable[[Any, Any], Parts],
-    evidence: dict[str, Evidence],
+    expectation: dict[str, Expectation],
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -176,14 +176,14 @@ def test_a_fault_in_the_light_fails(
     faulty_surfaces, faulty_lamps = fault(surfaces, lamps_of(LIT[name]))
     monkeypatch.setattr(adapter, "surfaces_of", lambda _: (faulty_surfaces, numbers))
     monkeypatch.setattr(adapter, "lamps_of", lambda _: faulty_lamps)
-    assert cell_of(LIT[name], "local", tmp_path, evidence[name]).verdict == Verdict.FAIL
+    assert cell_of(LIT[name], "local", tmp_path, expectation[name]).verdict == Verdict.FAIL
 
 
 @needs_vtk
 @pytest.mark.clause("VER-3")
 @pytest.mark.parametrize("clipped_to", [0.0, 1.0])
 def test_a_wrong_pixel_and_a_clipped_picture_fail(
-    clipped_to: float, evidence: dict[str, Evidence], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    clipped_to: float, expectation: dict[str, Expectation], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     right = adapter._run
 
@@ -193,7 +193,7 @@ def test_a_wrong_pixel_and_a_clipped_picture_fail(
         return right(*arguments) | {"image": np.minimum(image, clipped_to) if clipped_to else image}
 
     monkeypatch.setattr(adapter, "_run", faulty)
-    cell = cell_of(LIT["plates"], "local", tmp_path, evidence["plates"])
+    cell = cell_of(LIT["plates"], "local", tmp_path, expectation["plates"])
     assert cell.verdict == Verdict.FAIL
     assert cell.judgement is not None
     assert cell.judgement.failing == 1 or clipped_to

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
-from raytruth.comparisons.judgement.verdict import Evidence, gather_evidence
+from raytruth.comparisons.judgement.verdict import Expectation, expectation_of
 from raytruth.comparisons.matrix.cell import run_cell
 from raytruth.comparisons.renderers.vtk.adapter import Vtk
 from tests.comparisons.matrix.cell_places import place_of
@@ -25,14 +25,14 @@ REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))
 needs_vtk = pytest.mark.skipif(not REQUIRE_ALL and Vtk().version() is None, reason="VTK cannot draw here")
 
 
-def evidence_of(scene: Scene, *, with_colors: bool) -> Evidence:
+def expectation_for(scene: Scene, *, with_colors: bool) -> Expectation:
     """What a scene's cells are judged by; the truth that they are shown beside is black."""
     truth = np.zeros((scene.camera.height, scene.camera.width, 3))
     feasible = feasible_set(scene, Vtk.error_model, with_colors=with_colors)
-    return gather_evidence(scene, truth, feasible)
+    return expectation_of(scene, truth, feasible)
 
 
-def cell_of(scene: Scene, integrator: str, folder: Path, evidence: Evidence | None = None) -> Cell:
+def cell_of(scene: Scene, integrator: str, folder: Path, expectation: Expectation | None = None) -> Cell:
     """VTK's cell of a scene."""
-    evidence = evidence or evidence_of(scene, with_colors=integrator == "local")
-    return run_cell(place_of(scene, Vtk(), integrator), 0, evidence, folder)
+    expectation = expectation or expectation_for(scene, with_colors=integrator == "local")
+    return run_cell(place_of(scene, Vtk(), integrator), 0, expectation, folder)
