@@ -108,7 +108,14 @@ class ErrorModel:
     triangle_test: Literal["watertight", "moeller-trumbore", "pluecker"] = "watertight"
     """Which formula decides whether a ray meets a triangle: the truth's own, or one of triangle_tests.py."""
     triangle_points: Literal["along the ray", "barycentric"] = "along the ray"
-    """How the point is found where a ray meets a triangle: from its distance, or by triangle_points.py."""
+    """How the point is found where a ray meets a triangle: from its distance, or from its corners with the weights of
+    the triangle test (hit_points.py)."""
+    sphere_test: Literal["accurate", "from the foot", "from the foot, accurate for shadows"] = "accurate"
+    """Which formula decides where a ray meets a sphere: the truth's own, or those of sphere_tests.py. The last has
+    formulas of float64 for what a ray needs not to know the place of."""
+    sphere_points: Literal["along the ray", "normalised", "put back"] = "along the ray"
+    """How point and normal are found where a ray meets a sphere: p = o + t·d and (p - c)/r; this p, and p - c made a
+    unit vector; or that and the point of the sphere that lies in its direction (hit_points.py)."""
     image_radius: float = 0.0
     """A pixel's ray may go through any point within so many pixels of its centre, in x and in y."""
     rasterisation: Rasterisation | None = None
@@ -120,6 +127,12 @@ class ErrorModel:
     def __post_init__(self) -> None:
         if self.image_radius < 0.0:
             raise ValueError("an image radius is not negative")
+        if self.triangle_points == "barycentric" and self.triangle_test == "watertight":
+            raise ValueError("points are interpolated with the weights of one of the tests of triangle_tests.py")
+        if self.sphere_points == "put back" and self.triangle_points != "barycentric":
+            raise ValueError("points are put back on spheres by who interpolates those on triangles")
+        if self.sphere_test != "accurate" and (self.ray_offset.is_bound or not self.ray_offset.excludes_surface):
+            raise ValueError("spheres are tested from the foot by who leaves them as they are, or along their normal")
         nearest = self.ray_offset.minimum_distance
         if self.shadow_tolerance and (self.ray_offset.excludes_surface or self.shadow_tolerance < nearest):
             raise ValueError("a shadow tolerance is at least the least distance of hits, and excludes no surface")
@@ -154,6 +167,8 @@ class ErrorModel:
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
             "triangles": f"{self.triangle_test} test",
             "points on triangles": self.triangle_points,
+            "spheres": f"{self.sphere_test} test",
+            "points on spheres": self.sphere_points,
             "drawing": self.rasterisation.in_words() if self.rasterisation else "none: rays are traced",
             "rays that leave a surface start": self.ray_offset.in_words(),
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",

@@ -35,6 +35,18 @@ def largest_magnitude(x: Scalar, y: Scalar, z: Scalar) -> Scalar:
     return max(max(abs(x), abs(y)), abs(z))  # noqa: PLW3301 - balls have a maximum of two
 
 
+def magnitudes(a: Vector) -> Vector:
+    """The absolute value of each coordinate."""
+    return (abs(a[0]), abs(a[1]), abs(a[2]))
+
+
+def cross_terms(a: Vector, b: Vector) -> Vector:
+    """How large the terms of a × b are: the vector product with each minus made a plus, of absolute values."""
+    x, y, z = magnitudes(a)
+    p, q, r = magnitudes(b)
+    return (y * r + z * q, z * p + x * r, x * q + y * p)
+
+
 def triangle_of(scene: SceneData, primitive: int) -> int:
     """The number of a primitive among the triangles; below 0 for a sphere."""
     if SPHERES:
@@ -66,7 +78,10 @@ def pluecker_products(a: Vector, b: Vector, c: Vector, direction: Vector) -> Vec
 
 
 HELPERS = Behaviour(
-    helpers=(largest_magnitude, triangle_of, corners_of, pluecker_product, pluecker_products),
+    helpers=(
+        *(largest_magnitude, magnitudes, cross_terms),
+        *(triangle_of, corners_of, pluecker_product, pluecker_products),
+    ),
     constants={"edge_slack": arb(edge_slack)},
     name="the helpers of error models",
 )

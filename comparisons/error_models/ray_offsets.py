@@ -19,9 +19,10 @@ from flint import arb
 from raytruth.comparisons.error_models.helpers import corners_of, largest_magnitude
 from raytruth.reference_tracer.arithmetics.balls import stored_number
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
+from raytruth.reference_tracer.source.bounding_volume import certainly_less
 from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_RADIUS, number_of, vector_of
 from raytruth.reference_tracer.source.shadow import departure
-from raytruth.reference_tracer.source.sphere import sphere_distance
+from raytruth.reference_tracer.source.sphere import distance_to_other_side, sphere_distance
 from raytruth.reference_tracer.source.traversal import is_occluded
 from raytruth.reference_tracer.source.triangle import triangle_distance
 from raytruth.reference_tracer.source.vector import add, along, dot, subtract
@@ -60,6 +61,8 @@ def offset_behaviour(error_model: ErrorModel) -> Behaviour:
         functions["distance_to_triangle"] = distance_to_any_triangle
     elif offset.moves_rays and not offset.is_bound:
         functions["distance_to_other_side"] = distance_to_other_side_from_offset
+        if error_model.sphere_test == "accurate":  # others say themselves when they test a sphere again
+            functions["distance_to_sphere"] = distance_to_sphere_from_offset
     if error_model.shadow_shortening > 0.0:
         functions["shadow_ray_end"] = early_shadow_ray_end
     if error_model.shadow_tolerance > 0.0:
@@ -73,12 +76,19 @@ def offset_behaviour(error_model: ErrorModel) -> Behaviour:
         "shadow_tolerance": stored_number(error_model.shadow_tolerance, bits),
         "either_sign": arb(0, 1),
     }
-    return Behaviour(functions, (offset_length,), constants, "ray offsets")
+    return Behaviour(functions, (offset_length, comes_back), constants, "ray offsets")
 
 
 def offset_length(point: Vector) -> Scalar:
     """How far beside a point of a surface a ray starts."""
     return absolute_offset + relative_offset * largest_magnitude(point[0], point[1], point[2])
+
+
+def comes_back(origin: Vector, direction: Vector, center: Vector, radius: Scalar) -> bool:
+    """Whether a ray surely starts outside a sphere and goes nearer to its centre."""
+    from_center = subtract(origin, center)
+    outside = certainly_less(radius * radius, dot(from_center, from_center))
+    return outside and certainly_less(dot(direction, from_center), 0.0)
 
 
 def departure_along_normal(primitive: int, point: Vector, normal: Vector, direction: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - the signature of the function it stands for
@@ -89,6 +99,21 @@ def departure_along_normal(primitive: int, point: Vector, normal: Vector, direct
 def departure_along_ray(primitive: int, point: Vector, normal: Vector, direction: Vector) -> tuple[Vector, int]:  # noqa: ARG001 - as above
     """A little way along the ray."""
     return along(point, direction, offset_length(point) / sqrt(dot(direction, direction))), primitive
+
+
+def distance_to_sphere_from_offset(
+    scene: SceneData, origin: Vector, direction: Vector, left: int, sphere: int
+) -> Scalar:
+    """Of the sphere that it has left, the other side; but as of any sphere for who comes back to it from outside.
+
+    Who starts beside a sphere sees a near light in another direction than from its surface, and may see the sphere
+    itself before it.
+    """
+    center = vector_of(scene, SPHERE_CENTER, sphere)
+    radius = number_of(scene, SPHERE_RADIUS, sphere)
+    if sphere == left and not comes_back(origin, direction, center, radius):
+        return distance_to_other_side(origin, direction, center)
+    return sphere_distance(origin, direction, center, radius)
 
 
 def distance_to_other_side_from_offset(origin: Vector, direction: Vector, center: Vector) -> Scalar:

@@ -193,7 +193,7 @@ def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int
     distance, primitive = kernel.nearest_hit(data, origin, direction, NOTHING)
     if primitive == NOTHING:
         return NOTHING, ()
-    point = kernel.along(origin, direction, distance)
+    point = kernel.hit_point(data, origin, direction, distance, primitive)
     return primitive, (distance, *point, *kernel.surface_normal(data, primitive, point))
 
 

@@ -53,7 +53,7 @@ SOURCE_FILES = (
 )
 
 COMPILED_ENTRY_POINTS = ("render_rows", "first_hit_rows")
-ENTRY_POINTS = (*COMPILED_ENTRY_POINTS, "camera_frame", "primary_ray", "radiance_at", "trace_ray")
+ENTRY_POINTS = (*COMPILED_ENTRY_POINTS, "camera_frame", "primary_ray", "hit_point", "radiance_at", "trace_ray")
 """What Python calls: compiled kernels offer less, since every entry point costs time to compile."""
 
 LITERAL_PREFIX = "number_"

@@ -51,6 +51,11 @@ class Kernel(Protocol):
     def trace_ray(self, scene: SceneData, ray: Ray, waiting: list[Ray], /) -> Triple:
         """See source/ray_tree.py."""
 
+    def hit_point(
+        self, scene: SceneData, origin: Triple, direction: Triple, distance: Number, primitive: int, /
+    ) -> Triple:
+        """See source/ray_tree.py."""
+
     def surface_normal(self, scene: SceneData, primitive: int, point: Triple, /) -> Triple:
         """See source/traversal.py."""
 

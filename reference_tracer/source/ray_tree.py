@@ -92,11 +92,16 @@ def surface_at(
     scene: SceneData, origin: Vector, direction: Vector, distance: Scalar, primitive: int
 ) -> tuple[Vector, Vector, bool]:
     """Where the ray meets the primitive: the point, the unit normal turned to the ray, whether the ray is entering."""
-    point = along(origin, direction, distance)
+    point = hit_point(scene, origin, direction, distance, primitive)
     outward = surface_normal(scene, primitive, point)
     entering = dot(direction, outward) < 0.0
     normal = outward if entering else negate(outward)
     return point, normal, entering
+
+
+def hit_point(scene: SceneData, origin: Vector, direction: Vector, distance: Scalar, primitive: int) -> Vector:  # noqa: ARG001 - other formulas start from the primitive
+    """The point where the ray meets the primitive."""
+    return along(origin, direction, distance)
 
 
 def reflected_ray(

@@ -34,6 +34,28 @@ RAY_EPSILON = 1500 * 2.0**-24
 # ShadowEpsilon = 10·RayEpsilon (math.h line 22).
 SHADOW_EPSILON = 10 * RAY_EPSILON
 
+# Of both variants, as derived from Mitsuba 3.9.1 and its Embree 3.13.4.
+SCALAR_MODEL = ErrorModel(
+    description="float32 with rays that start off the surface (Mitsuba 3.9)",
+    precision_bits=24,
+    # Excluded: the offset is some thousand roundoffs of the coordinates.
+    ray_offset=RayOffset(absolute=RAY_EPSILON, relative=RAY_EPSILON),
+    shadow_shortening=SHADOW_EPSILON,
+    # Embree's robust mode is off (src/render/scene_embree.inl line 226).
+    triangle_test="moeller-trumbore",
+    # Mesh::compute_surface_interaction in src/render/mesh.cpp line 1566.
+    triangle_points="barycentric",
+    # Sphere::ray_intersect_preliminary_impl in src/shapes/sphere.cpp line 522. It computes in float64, but for the foot
+    # on the ray, which is a point in float32 (line 557); ray_test_impl (line 585) has none.
+    sphere_test="from the foot, accurate for shadows",
+    # Sphere::compute_surface_interaction in src/shapes/sphere.cpp lines 690-694.
+    sphere_points="put back",
+    random_choices="at dielectrics, to reflect or to refract; where light goes from a lamp, by ptracer",
+)
+# Variants that differentiate test spheres in float32 (src/shapes/sphere.cpp lines 528-530), and leave points where they
+# are found along the ray (lines 679-688).
+LLVM_MODEL = replace(SCALAR_MODEL, sphere_test="from the foot", sphere_points="normalised")
+
 # How many random samples a pixel gets. What decides are two faults in the library's glass scenes, simulated in
 # tests/meta/test_power_on_lobes.py: with 1,024 samples a bias of 1 % in what a lobe brings is always found, with 4,096
 # also one of 1 % in how often it is chosen. Compiled code draws the latter in the time that scalar code takes for less.
@@ -95,21 +117,13 @@ def mitsuba_llvm() -> Renderer:
 class MitsubaRenderer:
     """A variant of Mitsuba, obeying the protocol Renderer."""
 
-    error_model = ErrorModel(
-        description="float32 with rays that start off the surface (Mitsuba 3.9)",
-        precision_bits=24,
-        # Excluded: the offset is some thousand roundoffs of the coordinates.
-        ray_offset=RayOffset(absolute=RAY_EPSILON, relative=RAY_EPSILON),
-        shadow_shortening=SHADOW_EPSILON,
-        random_choices="at dielectrics, to reflect or to refract; where light goes from a lamp, by ptracer",
-    )
-    # No later one: pull request 1962, merged after this release, replaces the offset above by a bound on how each
-    # shape's points are rounded, which is about a hundredth of it.
-    error_models = (("mitsuba 3.9.1", error_model),)
-
     def __init__(self, name: str, variant: str, integrators: tuple[Integrator, ...], install: str) -> None:
         self.name = name
         self.variant = variant
+        self.error_model = LLVM_MODEL if variant == "llvm_ad_rgb" else SCALAR_MODEL
+        # No later one: pull request 1962, merged after this release, replaces the offset above by a bound on how each
+        # shape's points are rounded, which is about a hundredth of it.
+        self.error_models = (("mitsuba 3.9.1", self.error_model),)
         self.integrators = integrators
         self.install = install
 

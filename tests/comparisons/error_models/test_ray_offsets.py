@@ -73,11 +73,20 @@ def test_only_what_the_offset_changes_is_overridden() -> None:
     tested = {"distance_to_sphere", "distance_to_triangle"}
     assert names(RayOffset()) == set()
     assert names(RayOffset(), SHORTENING) == {"shadow_ray_end"}
-    assert names(LIKE_MITSUBA) == {"departure", "distance_to_other_side"}
+    assert names(LIKE_MITSUBA) == {"departure", "distance_to_sphere", "distance_to_other_side"}
     assert names(RayOffset(absolute=OFFSET, excludes_surface=False)) == {"departure", *tested}
     assert names(RayOffset(minimum_distance=OFFSET, excludes_surface=False)) == tested
     model = ErrorModel("", 24, RayOffset(excludes_surface=False), shadow_tolerance=OFFSET)
     assert set(offset_behaviour(model).functions) == {"is_shadowed", *tested}
+
+
+@pytest.mark.parametrize(("height", "comes_back"), [(0.3, True), (-0.3, False)])
+def test_who_starts_beside_a_sphere_may_come_back_to_it_from_outside(height: float, comes_back: bool) -> None:
+    kernel, decisions = kernel_of(RayOffset(absolute=0.3))
+    data = scene_data({SPHERE_CENTER: [balls((0.0, 0.0, 0.0))], SPHERE_RADIUS: [arb(1)]})
+    origin, down = balls((0.0, 1.0 + height, 0.0)), balls((0.0, -1.0, 0.0))
+    (distance,) = every_outcome(lambda: kernel.distance_to_sphere(data, origin, down, 0, 0), decisions, 1)
+    assert float(distance.mid()) == pytest.approx(height if comes_back else 1.7, abs=1e-9)
 
 
 def test_shadow_rays_end_before_the_light() -> None:
