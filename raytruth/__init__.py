@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
     from raytruth.comparisons.error_models.output_model import OutputModel
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
-    from raytruth.comparisons.records.results import Verdict, WorstPixel
+    from raytruth.comparisons.records.results import DeclaredPixels, Verdict, WorstPixel
     from raytruth.reference_tracer.certified_image import CertifiedImage
     from raytruth.reference_tracer.explanation import ExplanationError
     from raytruth.reference_tracer.explanation_record import Explanation
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "CertifiedImage",
+    "DeclaredPixels",
     "ErrorModel",
     "Explanation",
     "ExplanationError",
@@ -47,6 +48,7 @@ __all__ = [
 
 _MODULES = {
     "CertifiedImage": "raytruth.reference_tracer.certified_image",
+    "DeclaredPixels": "raytruth.comparisons.records.results",
     "ErrorModel": "raytruth.comparisons.error_models.error_model",
     "Explanation": "raytruth.reference_tracer.explanation_record",
     "ExplanationError": "raytruth.reference_tracer.explanation",

@@ -38,6 +38,11 @@ def together(image: tuple[Verdict, str], first_hits: tuple[Verdict, str]) -> tup
     return worst, "; ".join(reasons) or image[1]
 
 
+def with_shortcuts(verdict: Verdict, reason: str, shortcuts: str) -> tuple[Verdict, str]:
+    """The same; how large the shortcuts are in the scene is told where they matter."""
+    return verdict, f"{reason}; {shortcuts}" if verdict == Verdict.DECLARED else reason
+
+
 def unjudged_in_words(unjudged: int, all_of_them: int, noun: str) -> str:
     """The reason of a cell too many of whose pixels, or first hits, cannot be judged."""
     return f"{unjudged} of {all_of_them} {noun} cannot be judged, since this arithmetic leaves everything open there"

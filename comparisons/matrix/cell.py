@@ -13,7 +13,7 @@ import numpy as np
 
 from raytruth.comparisons.judgement.exact_test import largest_error
 from raytruth.comparisons.judgement.first_hit_test import judge_first_hits, verdict_of_first_hits
-from raytruth.comparisons.judgement.pixel_verdict import together
+from raytruth.comparisons.judgement.pixel_verdict import together, with_shortcuts
 from raytruth.comparisons.judgement.verdict import judge_exact, judge_light_paths, judge_noisy, of_pixel_areas
 from raytruth.comparisons.records.image_files import write_image
 from raytruth.comparisons.records.pixel_evidence import write_pixel_evidence
@@ -93,8 +93,7 @@ def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path
     told = _circumstances(place, folder) | {"seconds": rendering.seconds, "first_hits": hits}
     if rendering.image is None:
         assert hits is not None, "checked with the sizes"
-        verdict, reason = verdict_of_first_hits(hits)
-        reason = f"{reason}; {expectation.shortcuts}" if verdict == Verdict.DECLARED else reason
+        verdict, reason = with_shortcuts(*verdict_of_first_hits(hits), expectation.shortcuts)
         return Cell(**told, verdict=verdict, reason=reason)
     truth = f"cells/{place.scene.name}/{TRUTH_FILE}"
     if place.integrator.follows == "light paths":
@@ -109,8 +108,7 @@ def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path
     verdict, reason = judged.verdict, judged.reason
     if hits is not None:
         verdict, reason = together((verdict, reason), verdict_of_first_hits(hits))
-    if verdict == Verdict.DECLARED:
-        reason = f"{reason}; {expectation.shortcuts}"
+    verdict, reason = with_shortcuts(verdict, reason, expectation.shortcuts)
     return Cell(
         **told,
         verdict=verdict,

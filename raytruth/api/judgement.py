@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from raytruth.comparisons.error_models.shortcuts import shortcuts_in_words
 from raytruth.comparisons.feasible_sets.kept_feasible_sets import kept_feasible_set
 from raytruth.comparisons.judgement.judged_truth import judged_truth
+from raytruth.comparisons.judgement.pixel_verdict import with_shortcuts
 from raytruth.comparisons.judgement.verdict import expectation_of, judge_exact
 
 if TYPE_CHECKING:
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
-    from raytruth.comparisons.records.results import Verdict, WorstPixel
+    from raytruth.comparisons.records.results import DeclaredPixels, Verdict, WorstPixel
     from raytruth.scenes.scene import Scene
 
 FLOATS = ("float16", "float32", "float64")
@@ -27,7 +29,9 @@ class ImageJudgement:
     """What `judge` finds of an image."""
 
     verdict: Verdict
-    """"pass" if every judged pixel lies in its feasible set, and at least one could be judged; else "fail"."""
+    """"pass" if every judged pixel lies in its feasible set, looks as it is due, and nearly all could be judged;
+    "declared" where only a declared shortcut explains how some look; "fail" if one lies outside; "incomparable" where
+    more than one in a hundred could not be judged."""
     reason: str
     """The verdict in words, with its counts."""
     pixels: int
@@ -40,6 +44,8 @@ class ImageJudgement:
     """How many have more outcomes than are told apart, so that one box holds several."""
     ambiguous: int
     """How many have more than one outcome, as on edges and at the rims of shadows."""
+    declared: DeclaredPixels | None
+    """Those that are as declared, not as due: how many, which, and how far from the truth; None if there are none."""
     worst: WorstPixel
     """The one with the largest distance, whether it fails or not."""
     distances: NDArray[np.float64]
@@ -66,16 +72,18 @@ def judge(image: NDArray[np.floating[Any]], scene: Scene, error_model: ErrorMode
     _check(image, scene)
     values: Any = image.astype(np.float64)  # holds every number of the narrower types
     judged = judge_exact(values, expectation_of(scene, judged_truth(scene), kept_feasible_set(scene, error_model)))
+    verdict, reason = with_shortcuts(judged.verdict, judged.reason, shortcuts_in_words(error_model, scene))
     counts = judged.judgement
     assert counts.worst is not None, "an image has a pixel"
     return ImageJudgement(
-        verdict=judged.verdict,
-        reason=judged.reason,
+        verdict=verdict,
+        reason=reason,
         pixels=counts.pixels,
         failing=counts.failing,
         unjudged=counts.unjudged,
         capped=counts.capped,
         ambiguous=counts.ambiguous,
+        declared=counts.declared,
         worst=counts.worst,
         distances=judged.distances.max(axis=2),
     )
