@@ -10,7 +10,8 @@ import pytest
 
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
-from raytruth.comparisons.judgement.exact_test import distances_in_tolerances, judge_first_hits
+from raytruth.comparisons.judgement.exact_test import distances_in_tolerances
+from raytruth.comparisons.judgement.first_hit_test import judge_first_hits
 from raytruth.comparisons.records.renderings import Rays
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.comparisons.renderers.protocol import shown_error_model
