@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 BAD_USAGE = 2
+UNFORESEEN = 3
 INTERRUPTED = 130  # what shells give for a program that SIGINT (2) ended: 128 + 2
 BROKEN_PIPE = 141  # likewise for SIGPIPE (13)
 
@@ -92,12 +93,25 @@ def make_app() -> App:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; returns the exit status: 0, what the command says, or 2 for bad usage or input."""
+    """Run a command; returns the exit status.
+
+    0, what the command says, 2 for bad usage or input, or 3 where raytruth itself is at fault.
+    """
     _let_all_text_be_printed()
+    tokens = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        app = make_app()
-        tokens = list(sys.argv[1:] if arguments is None else arguments)
-        result = app(tokens, exit_on_error=False, print_error=False, result_action="return_value")
+        return _status_of(tokens)
+    except Exception as error:
+        from raytruth.unforeseen import sentence_and_log  # noqa: PLC0415 - so that `--help` is quick
+
+        _tell(sentence_and_log(error, tokens))
+        return UNFORESEEN
+
+
+def _status_of(tokens: list[str]) -> int:
+    """The exit status of a command, each foreseen way of going wrong told in one sentence."""
+    try:
+        result = make_app()(tokens, exit_on_error=False, print_error=False, result_action="return_value")
         print(end="", flush=True)  # so that a broken pipe is noticed here
     except BrokenPipeError:
         _discard_output()
@@ -136,8 +150,15 @@ def _told(error: OSError) -> str:
 
 
 def _bad_usage(sentence: str) -> int:
-    print(f"raytruth: {sentence}", file=sys.stderr)
+    _tell(sentence)
     return BAD_USAGE
+
+
+def _tell(sentence: str) -> None:
+    """Names of files may hold control characters, which are shown as marks."""
+    from raytruth.reports.wording import printable  # noqa: PLC0415 - so that `--help` is quick
+
+    print(printable(f"raytruth: {sentence}"), file=sys.stderr)
 
 
 def _one_line(error: Exception) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shlex
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,7 +12,7 @@ from cyclopts import Parameter
 
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene
-from raytruth.output import print_json
+from raytruth.output import print_json, say, tell
 from raytruth.scenes.exporters import gltf_limits, json_scene, mitsuba_limits, obj, pbrt_limits, povray_limits
 from raytruth.scenes.exporters.gltf import export_gltf
 from raytruth.scenes.exporters.mitsuba import export_mitsuba
@@ -121,9 +120,9 @@ def export(
         print_json({"scene": opened.name, "file": str(main_file), "files": list(map(str, files)), "notes": notes})
         return
     for note in notes:
-        print(f"{opened.name}: {note}.", file=sys.stderr)
+        tell(f"{opened.name}: {note}.")
     opens = f"; open it with: {form.command(opened, shlex.quote(str(main_file)))}" if form.command else ""
-    print(f"Wrote {main_file}{opens}")
+    say(f"Wrote {main_file}{opens}")
 
 
 def _export(scene: Scene, form: Format, folder: Path) -> tuple[Path, list[Path]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -15,10 +14,12 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from raytruth.comparisons.kills.kill_run import kill_results, run_kills, write_kill_results
 from raytruth.comparisons.matrix.quick_suite import write_quick_scenes
 from raytruth.errors import UsageError
-from raytruth.options import AsJson, open_scene
-from raytruth.reports.html import REPORT_FILE, write_html_report
+from raytruth.options import AsJson, expect_folder, open_scene
+from raytruth.output import tell
+from raytruth.reports.html import REPORT_FILE
 from raytruth.reports.kills import print_kills, write_kill_report
 from raytruth.scenes.library import library_names
+from raytruth.written_report import written_report
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -58,6 +59,7 @@ def faults(
     """
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
+    expect_folder(out)
     opened = [open_scene(source) for source in scenes or library_names()]
     start = time.perf_counter()
     kills = _run(opened, out, jobs or os.cpu_count() or 1, fresh=fresh)
@@ -65,7 +67,7 @@ def faults(
     write_kill_results(out, results)
     page = write_kill_report(out)
     if (out / REPORT_FILE).exists():
-        write_html_report(out, unless_current=True)  # which then leads to the page of the faults
+        written_report(out, unless_current=True)  # which then leads to the page of the faults
     if write_quick:
         write_quick_scenes(results.quick)
     if as_json:
@@ -88,5 +90,5 @@ def _run(scenes: Sequence[Scene], out: Path, jobs: int, *, fresh: bool) -> list[
             if not console.is_terminal:
                 failing = sum(cell.fails for cell in kills.cells)
                 line = f"[{len(done)}/{len(scenes)}] {kills.scene}: {failing} of {len(kills.cells)} fail"
-                print(line, file=sys.stderr, flush=True)
+                tell(line)
     return done

@@ -13,6 +13,8 @@ from raytruth.scenes.camera import LARGEST_SIDE
 from raytruth.scenes.loading import SceneError
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from raytruth.scenes.scene import Scene
 
 AsJson = Annotated[bool, Parameter(name="--json", negative="")]
@@ -27,6 +29,16 @@ def open_scene(name_or_path: str) -> Scene:
         return load_scene(name_or_path)
     except SceneError as error:
         raise UsageError(str(error)) from error
+
+
+def expect_folder(out: Path) -> None:
+    """Before any work. Raises UsageError where there is something else than a folder."""
+    if out.exists() and not out.is_dir():
+        raise UsageError(f"--out: expected a folder, but {out} is a file.")
+    try:
+        str(out).encode()
+    except UnicodeEncodeError as error:
+        raise UsageError(f"--out: expected a folder whose name is UTF-8, found {str(out)!a}.") from error
 
 
 def parse_pixel(text: str) -> tuple[int, int]:

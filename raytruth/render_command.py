@@ -16,7 +16,7 @@ from raytruth.api.images import MOST_SAMPLES, ArithmeticName
 from raytruth.comparisons.records.image_files import ImageError, write_image
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene, resized
-from raytruth.output import print_json, progress
+from raytruth.output import print_json, progress, say
 from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.reports.pictures import tone_picture
 
@@ -75,7 +75,7 @@ def render(
             }
         )
     else:
-        print(f"Wrote {out}: {what}, {seconds:.1f} s with compiling")
+        say(f"Wrote {out}: {what}, {seconds:.1f} s with compiling")
 
 
 def _check_destination(path: Path) -> None:

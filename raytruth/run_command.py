@@ -12,6 +12,7 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from raytruth.comparisons.matrix.earlier_results import damage_of
 from raytruth.comparisons.matrix.plan import Plan, plan_run
 from raytruth.comparisons.matrix.quick_suite import write_quick_suite
 from raytruth.comparisons.matrix.results_directory import only_run_in, with_metrics, write_results
@@ -21,11 +22,12 @@ from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers
 from raytruth.comparisons.renderers.protocol import why_unavailable
 from raytruth.errors import UsageError
-from raytruth.options import AsJson, open_scene
-from raytruth.output import progress
+from raytruth.options import AsJson, expect_folder, open_scene
+from raytruth.output import progress, tell
 from raytruth.reports.console import print_matrix
-from raytruth.reports.html import write_html_report
+from raytruth.reports.wording import printable
 from raytruth.scenes.library import library_names
+from raytruth.written_report import written_report
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -83,13 +85,17 @@ def run(
     """
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
-    required = _selected(require) if require else {}
-    selected = _selected(renderer) | required
+    expect_folder(out)
+    required = _selected("--require", require) if require else {}
+    selected = _selected("--renderer", renderer) | required
     known_failures = _waivers(waivers)
     if quick and scenes:
         raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
     opened = _opened(write_quick_suite(out) if quick else scenes or library_names())
     with only_run_in(out):
+        damage = damage_of(out)
+        if damage is not None:
+            tell(f"raytruth: {damage}")
         with progress("Looking for the renderers"):
             plan = plan_run(opened, list(selected.values()), out, fresh=fresh)
         try:
@@ -104,15 +110,15 @@ def run(
             raise
         cells, unmatched = apply_waivers(known_failures, cells, plan.versions)
         results = write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), cells)
-        report = write_html_report(out, unless_current=True)
+        report = written_report(out, unless_current=True)
     _show(results, report, as_json)
     return _status(cells, _missing(required, plan), unmatched, strict=strict)
 
 
-def _selected(names: Iterable[str]) -> dict[str, Renderer]:
-    """The renderers that an option names, several in one text with commas; all if it names none."""
+def _selected(option: str, names: Sequence[str]) -> dict[str, Renderer]:
+    """The renderers that an option names, several in one text with commas; all if the option is not given."""
     try:
-        return select_renderers([part.strip() for name in names for part in name.split(",") if part.strip()])
+        return select_renderers(_split(option, names))
     except UnknownRendererError as error:
         raise UsageError(str(error)) from error
 
@@ -133,6 +139,14 @@ def _waivers(path: Path | None) -> tuple[Waiver, ...]:
 
 def _with_versions(selected: Mapping[str, Renderer], plan: Plan) -> list[tuple[Renderer, str | None]]:
     return [(renderer, plan.versions[name]) for name, renderer in selected.items()]
+
+
+def _split(option: str, names: Sequence[str]) -> list[str]:
+    """What stands between commas. Raises UsageError where an option is given and names nothing."""
+    parts = [part.strip() for name in names for part in name.split(",") if part.strip()]
+    if names and not parts:
+        raise UsageError(f"{option}: expected the name of a renderer, found none; see raytruth renderers.")
+    return parts
 
 
 def _opened(sources: Iterable[str]) -> dict[str, Scene]:
@@ -159,12 +173,13 @@ def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:
             bar.advance(task)
             if not console.is_terminal:
                 line = f"[{done}/{total}] {cell.scene} {cell.renderer} {cell.integrator}: {cell.verdict}"
-                print(line, file=sys.stderr, flush=True)
+                tell(line)
     return cells
 
 
 def _command() -> str:
-    return shlex.join(["raytruth", *sys.argv[1:]])
+    """For the results, which are UTF-8: a name of other bytes is shown with marks."""
+    return printable(shlex.join(["raytruth", *sys.argv[1:]]))
 
 
 def _show(results: Results, report: Path, as_json: bool) -> None:
@@ -176,9 +191,9 @@ def _show(results: Results, report: Path, as_json: bool) -> None:
 
 def _status(cells: Sequence[Cell], missing: Mapping[str, str], unmatched: Sequence[str], *, strict: bool) -> int:
     for name, reason in missing.items():
-        print(f"raytruth: {name} is required and {reason}", file=sys.stderr)
+        tell(f"raytruth: {name} is required and {reason}")
     for sentence in unmatched:
-        print(f"raytruth: {sentence}", file=sys.stderr)
+        tell(f"raytruth: {sentence}")
     bad_ones = {Verdict.FAIL, Verdict.ERROR} | ({Verdict.DECLARED} if strict else set())
     bad = any(cell.verdict in bad_ones and cell.waived is None for cell in cells)
     return FAILED if bad or missing or unmatched else 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import App, Parameter
@@ -10,7 +9,7 @@ from cyclopts import App, Parameter
 from raytruth.errors import UsageError
 from raytruth.export_command import export
 from raytruth.options import AsJson, open_scene
-from raytruth.output import print_json, print_table
+from raytruth.output import print_json, print_table, say, tell
 from raytruth.scenes.library import library_names
 from raytruth.scenes.light_paths import whitted_class
 from raytruth.scenes.requirements import required_features
@@ -98,7 +97,7 @@ def show(
     if as_json:
         print_json({**facts, "scene": text})
         return
-    print(f"{opened.name}: {opened.purpose}")
+    say(f"{opened.name}: {opened.purpose}")
     print(f"requires: {', '.join(feature.lower() for feature in facts['features'])}")
     print(f"light paths: {facts['light_paths']}")
     print(f"primitives: {facts['primitives']}")
@@ -130,9 +129,9 @@ def validate(files: Annotated[tuple[str, ...], Parameter(consume_multiple=True)]
     else:
         for file, found in problems.items():
             if found:
-                print("\n".join(found), file=sys.stderr)
+                tell("\n".join(found))
             else:
-                print(f"{file}: valid")
+                say(f"{file}: valid")
     return 2 if any(problems.values()) else 0
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 import time
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict
@@ -20,8 +19,8 @@ from raytruth.api import images
 from raytruth.comparisons.records.certified_files import write_certified_image
 from raytruth.comparisons.records.image_files import ImageError
 from raytruth.errors import UsageError
-from raytruth.options import AsJson, open_scene, resized
-from raytruth.output import print_json
+from raytruth.options import AsJson, expect_folder, open_scene, resized
+from raytruth.output import print_json, say, tell
 from raytruth.reference_tracer.certified_image import largest_value
 from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.scenes.library import library_names
@@ -65,13 +64,14 @@ def truth(
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
     opened = [resized(open_scene(source), size) for source in scenes or library_names()]
     _check_names(opened)
+    expect_folder(out)
     _make_folder(out)
     summaries = []
     for scene in opened:
         summary = _certify(scene, out, jobs or os.cpu_count() or 1, fresh=fresh)
         summaries.append(summary)
         if not as_json:
-            print(_sentence(summary), flush=True)
+            say(_sentence(summary))
     if as_json:
         print_json(summaries[0] if len(summaries) == 1 else {"scenes": summaries})
 
@@ -85,10 +85,7 @@ def _check_names(opened: list[Scene]) -> None:
 
 
 def _make_folder(out: Path) -> None:
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except FileExistsError as error:
-        raise UsageError(f"--out: expected a folder, but {out} is a file.") from error
+    out.mkdir(parents=True, exist_ok=True)
     if not os.access(out, os.W_OK):
         raise UsageError(f"--out: the folder {out} cannot be written to.")
 
@@ -128,7 +125,7 @@ def _with_progress(scene: Scene, jobs: int, *, fresh: bool) -> CertifiedImage:
     with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
         task = bar.add_task(what, total=None)
         if not console.is_terminal:
-            print(f"{what} …", file=sys.stderr, flush=True)
+            tell(f"{what} …")
         return images.truth(
             scene, jobs=jobs, fresh=fresh, progress=lambda done, total: bar.update(task, completed=done, total=total)
         )

@@ -26,7 +26,7 @@ from raytruth.reference_tracer.certification import (
     Undecided,
     agree,
 )
-from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
+from raytruth.reference_tracer.storage.cache import cache_folder, keep
 from raytruth.reference_tracer.storage.source_digest import source_digest
 
 if TYPE_CHECKING:
@@ -232,15 +232,9 @@ def _joined(bands: Sequence[tuple[_Band, CertifiedImage]]) -> CertifiedImage:
 
 
 def _write(band: _Band, image: CertifiedImage) -> None:
-    undecided = [[column, row, asdict(reason)] for (column, row), reason in image.undecided.items()]
-    with kept_file(band.file) as file:
-        np.savez(
-            file,
-            middle=image.middle,
-            radius=image.radius,
-            precision_bits=image.precision_bits,
-            undecided=np.array(json.dumps(undecided)),
-        )
+    undecided = json.dumps([[column, row, asdict(reason)] for (column, row), reason in image.undecided.items()])
+    arrays = {"middle": image.middle, "radius": image.radius, "precision_bits": image.precision_bits}
+    keep(band.file, lambda file: np.savez(file, allow_pickle=False, undecided=np.array(undecided), **arrays))
 
 
 def _read(band: _Band) -> CertifiedImage | None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
@@ -12,7 +11,7 @@ from rich.text import Text
 
 from raytruth.comparisons.records.image_files import ImageError, read_image
 from raytruth.comparisons.records.pixel_evidence import read_pixel_evidence
-from raytruth.comparisons.records.results import RESULTS_FILE, SCHEMA_VERSION, Results
+from raytruth.comparisons.records.results import RESULTS_FILE, SCHEMA_VERSION, Results, inconsistency
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -50,7 +49,9 @@ def load_results(directory: Path) -> Results:
         place = ".".join(str(part) for part in first["loc"])
         more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""
         raise ReportError(f"{path} is broken at {place}: {first['msg']}{more}; run the matrix again.") from error
-    _require_consistent(path, results)
+    wrong = inconsistency(results)
+    if wrong is not None:
+        raise ReportError(f"{path} {wrong}: run the matrix again.")
     return results
 
 
@@ -68,28 +69,6 @@ def _read_json(path: Path) -> Any:
         raise ReportError(f"{path} cannot be read: {error.strerror}.") from error
     except (ValueError, RecursionError) as error:
         raise ReportError(f"{path} is not valid JSON ({error}): run the matrix again.") from error
-
-
-def _require_consistent(path: Path, results: Results) -> None:
-    """Every cell must have its row and column, and only once, or the matrix would hide it."""
-    scenes = {scene.name for scene in results.scenes}
-    renderers = {renderer.name for renderer in results.renderers}
-    for cell in results.cells:
-        if cell.scene not in scenes:
-            raise ReportError(f"{path} has a cell of the scene {cell.scene!r}, which its list of scenes lacks.")
-        if cell.renderer not in renderers:
-            raise ReportError(
-                f"{path} has a cell of the renderer {cell.renderer!r}, which its list of renderers lacks."
-            )
-    names = {
-        "scene": [scene.name for scene in results.scenes],
-        "renderer": [renderer.name for renderer in results.renderers],
-        "cell": [f"{cell.scene} {cell.renderer}/{cell.integrator}" for cell in results.cells],
-    }
-    for kind, listed in names.items():
-        for name, count in Counter(listed).items():
-            if count > 1:
-                raise ReportError(f"{path} lists the {kind} {name!r} {count} times; expected once.")
 
 
 def read_colours(directory: Path, relative: str) -> Image:

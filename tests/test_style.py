@@ -104,7 +104,8 @@ def test_an_exception_from_the_linter_has_a_reason_and_no_handler_catches_everyt
             assert re.search(r"# noqa: [A-Z]+\d+(, [A-Z]+\d+)* - \w", token.string), token.line
     handlers = (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.ExceptHandler))
     caught = {ast.unparse(handler.type) if handler.type else "everything" for handler in handlers}
-    assert caught.isdisjoint({"everything", "Exception", "BaseException"})
+    last_handler = {"Exception"} if path == ROOT / "raytruth" / "command_line.py" else set()
+    assert caught & {"everything", "Exception", "BaseException"} == last_handler
 
 
 def test_every_rule_switched_off_for_the_project_has_a_reason() -> None:

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Literal
 
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.scenes.extent import extent_of
+
+if TYPE_CHECKING:
+    from raytruth.scenes.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -82,7 +87,10 @@ class Rasterisation:
 
 @dataclass(frozen=True)
 class ErrorModel:
-    """How a renderer's result may differ from the truth by its arithmetic alone; the same for all scenes."""
+    """How a renderer's result may differ from the truth by its arithmetic alone; the same for all scenes.
+
+    But for what `largest_extent` says of large ones.
+    """
 
     description: str
     precision_bits: int
@@ -92,6 +100,9 @@ class ErrorModel:
     """Shadow rays end at this fraction of the light's distance before the light."""
     shadow_tolerance: float = 0.0
     """What is nearer than this to a shadow ray's start, or to the light, may throw a shadow or none; 0: it does."""
+    largest_extent: float = inf
+    """Of scenes for which the least distance of hits and the shadow tolerance are as stated (`extent_of`). A renderer
+    that has them in units of its own, and gets larger scenes in larger units, has them so many times longer there."""
     index_bits: int | None = None
     """Indices of refraction are rounded to this many bits when they are stored, if to fewer than all else."""
     triangle_test: Literal["watertight", "moeller-trumbore", "pluecker"] = "watertight"
@@ -126,6 +137,17 @@ class ErrorModel:
         if self.shadow_tolerance and (self.ray_offset.excludes_surface or self.shadow_tolerance < nearest):
             raise ValueError("a shadow tolerance is at least the least distance of hits, and excludes no surface")
 
+    def in_scene(self, scene: Scene) -> ErrorModel:
+        """The error model for this scene: lengths grow by the least power of two that makes room for its extent."""
+        growth = 1.0
+        while extent_of(scene) > self.largest_extent * growth:
+            growth *= 2.0
+        if growth == 1.0:
+            return self
+        offset = replace(self.ray_offset, minimum_distance=self.ray_offset.minimum_distance * growth)
+        tolerance = self.shadow_tolerance * growth
+        return replace(self, ray_offset=offset, shadow_tolerance=tolerance, largest_extent=self.largest_extent * growth)
+
     def of_light(self) -> ErrorModel:
         """The error model of colours: a rasteriser's light has an arithmetic of its own, other than its hits have."""
         if self.rasterisation is None or self.rasterisation.light_bits == self.precision_bits:
@@ -137,6 +159,7 @@ class ErrorModel:
         shortened = f"{self.shadow_shortening:.3g} of the distance before the light"
         around = f"within {self.image_radius:.3g} pixels of a pixel's centre, in x and in y"
         near = f"{self.shadow_tolerance:.3g} from the surface or the light may throw a shadow or none"
+        grows = f"where rays go farther than {self.largest_extent:.4g}, least distances are so many times longer"
         return {
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
@@ -150,6 +173,7 @@ class ErrorModel:
             "rays that leave a surface start": self.ray_offset.in_words(),
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",
             "what is near": f"nearer than {near}" if self.shadow_tolerance > 0.0 else "throws shadows as all else",
+            "large scenes": grows if isfinite(self.largest_extent) else "as all others",
             "output": self.output.in_words(),
             "random numbers": self.random_choices or "none",
         }

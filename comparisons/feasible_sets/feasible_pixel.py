@@ -7,7 +7,10 @@ which nothing can be said contributes anything between black and the brightest r
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
+from heapq import heappop, heappush
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from flint import arb
@@ -36,12 +39,31 @@ class FirstHit:
     """Seven: distance, position, normal; empty where nothing is hit."""
 
 
+@dataclass
+class FollowedRay:
+    """A ray of the tree, and the rays that go on from its end."""
+
+    ray: Any
+    most: int
+    """How many outcomes may still be told apart on the way from the camera: a ray with k outcomes leaves its children a
+    k-th of it, so that the work for a pixel stays in proportion to the size of its tree."""
+    ways: list[tuple[Box, list[FollowedRay]]] | None = None
+    """For each way that it can go, what it brings by itself and its children; None for a ray that is not followed,
+    which may bring anything."""
+
+    def children(self) -> list[FollowedRay]:
+        """Those of all ways."""
+        return [child for _, children in self.ways or () for child in children]
+
+
 class PixelEvaluator:
     """Evaluates the pixels of one scene; `bound` limits what any ray can bring, None if that is unknown."""
 
-    def __init__(self, rays: RoundedRays, bound: RadianceBound | None, output_bits: int) -> None:
+    def __init__(self, rays: RoundedRays, bound: RadianceBound | None, output_bits: int, most_work: int) -> None:
         self.rays = rays
         self.bound = bound
+        self.most_work = most_work
+        """After so much (RoundedRays.work_done), no further ray of a pixel is followed."""
         self.negligible_weight = 2.0**-output_bits
         """What is under a rounding of the brightest value does not deserve its own tree."""
         self.excess = 1.0 + 2.0 ** (10 - output_bits)
@@ -51,6 +73,8 @@ class PixelEvaluator:
         self.medium = -1 if scene.camera.inside is None else list(scene.materials).index(scene.camera.inside)
         self.merged = False
         self.may_merge = True
+        self.spent = False
+        """Whether the last pixel would have taken more work than it may."""
         self._primary: tuple[tuple[int, int], tuple[Any, Any]] | None = None
 
     def colors(self, column: int, row: int, *, may_merge: bool = True) -> tuple[list[Box], bool]:
@@ -59,11 +83,11 @@ class PixelEvaluator:
         Raises UndecidableError, also where one box spans more than half of all that a ray of the scene may bring: such
         a pixel would pass with almost any value; and as soon as outcomes must be merged, unless they may be.
         """
-        self.merged, self.may_merge = False, may_merge
+        self.merged, self.may_merge, self.spent = False, may_merge, False
         with self.rays.prepared.arithmetic.in_force():
             origin, direction = self._primary_ray(column, row)
             white = (arb(1), arb(1), arb(1))
-            boxes = self._outcomes((origin, direction, white, NOTHING, self.medium, self.depth), MOST_OUTCOMES)
+            boxes = self._outcomes(self._followed((origin, direction, white, NOTHING, self.medium, self.depth)))
         if self.bound is not None and 2 * widest(boxes) > self.bound.at_camera / 2:
             raise UndecidableError
         return boxes, self.merged
@@ -73,7 +97,12 @@ class PixelEvaluator:
         try:
             with self.rays.prepared.arithmetic.in_force():
                 origin, direction = self._primary_ray(column, row)
-                hits = every_outcome(lambda: self.rays.first_hit(origin, direction), self.rays.decisions, MOST_OUTCOMES)
+                hits = every_outcome(
+                    lambda: self.rays.first_hit(origin, direction),
+                    self.rays.decisions,
+                    MOST_OUTCOMES,
+                    all_or_none=True,
+                )
                 found = [FirstHit(*hit) for hit in hits]
         except TooManyOutcomesError as error:
             raise UndecidableError from error
@@ -87,25 +116,59 @@ class PixelEvaluator:
             self._primary = (column, row), self.rays.primary_ray(column, row)
         return self._primary[1]
 
-    def _outcomes(self, ray: Any, most: int) -> list[Box]:
-        """All that a ray and those that go on from it may contribute.
+    def _followed(self, ray: Any) -> FollowedRay:
+        """The ray tree of a camera ray, the heaviest rays first, until the pixel's work is spent.
 
-        `most` is how many outcomes may still be told apart on the way from the camera: a ray with k outcomes leaves
-        its children a k-th of it, so that the work for a pixel stays in proportion to the size of its tree.
+        Two budgets follow the same rays in the same order, so that the larger one leaves less open.
         """
-        weight = ray[2]
-        if self.bound is not None and all(channel < self.negligible_weight for channel in weight):
-            return [self._anything(weight)]
-        try:
-            steps = list(every_outcome(lambda: self._step(ray), self.rays.decisions, most))
-        except TooManyOutcomesError:
+        order = itertools.count()
+        last = self.rays.work_done() + self.most_work
+        root = FollowedRay(ray, MOST_OUTCOMES)
+        waiting = [(0.0, next(order), root)]
+        while waiting:
+            followed = heappop(waiting)[2]
+            if self._is_negligible(followed.ray[2]):
+                continue
+            if self.rays.work_done() >= last:
+                self._give_up(spent=True)
+                break
+            try:
+                self._follow(followed)
+            except TooManyOutcomesError:
+                self._give_up(spent=False)
+            for child in followed.children():
+                heappush(waiting, (-_heaviest(child.ray[2]), next(order), child))
+        return root
+
+    def _follow(self, followed: FollowedRay) -> None:
+        """Find all ways that a ray may go. Raises TooManyOutcomesError."""
+        run, decisions, most = (lambda: self._step(followed.ray)), self.rays.decisions, followed.most
+        steps = list(every_outcome(run, decisions, most, all_or_none=True))
+        share = max(1, most // len(steps))
+        followed.ways = [(local, [FollowedRay(child, share) for child in children]) for local, children in steps]
+
+    def _is_negligible(self, weight: Box) -> bool:
+        return self.bound is not None and all(channel < self.negligible_weight for channel in weight)
+
+    def _give_up(self, *, spent: bool) -> None:
+        """Leave open what a ray contributes, or all that wait: that is as good as too many outcomes."""
+        self.spent = self.spent or spent
+        if self.bound is None:
+            raise UndecidableError
+        if spent:
+            self.merged = True
+        else:
             self._merge()
-            return [self._anything(weight)]
+
+    def _outcomes(self, followed: FollowedRay) -> list[Box]:
+        """All that a ray and those that go on from it may contribute."""
+        if followed.ways is None:
+            return [self._anything(followed.ray[2])]
         boxes: list[Box] = []
-        for local, children in steps:
+        for local, children in followed.ways:
             sums = [local]
             for child in children:
-                added = self._outcomes(child, max(1, most // len(steps)))
+                added = self._outcomes(child)
                 if len(sums) * len(added) > MOST_OUTCOMES:
                     sums, added = self._hull(sums), self._hull(added)
                 sums = [_sum(a, b) for a in sums for b in added]
@@ -115,7 +178,7 @@ class PixelEvaluator:
             if not all(channel.is_finite() for box in boxes for channel in box):
                 raise UndecidableError
             return boxes
-        possible = self._anything(weight)
+        possible = self._anything(followed.ray[2])
         return [_common(box, possible) for box in boxes]
 
     def _step(self, ray: Any) -> tuple[Box, list[Any]]:
@@ -152,6 +215,11 @@ class PixelEvaluator:
         halves = [channel.upper() * (factor / 2) for channel in weight]
         red, green, blue = (arb(half, half.upper()) for half in halves)
         return red, green, blue
+
+
+def _heaviest(weight: Box) -> float:
+    """The largest that a channel may be; infinite where nothing is known."""
+    return max(float(channel.upper()) if channel.is_finite() else inf for channel in weight)
 
 
 def _sum(a: Box, b: Box) -> Box:

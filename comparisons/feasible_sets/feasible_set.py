@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.feasible_sets.declared_outcomes import Bounds, DueHits
+    from raytruth.comparisons.feasible_sets.pixel_outcomes import Colors, Pixel
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.reference_tracer.certified_image import CertifiedImage
     from raytruth.scenes.scene import Scene
@@ -116,15 +117,32 @@ def feasible_set(
     if has_shortcuts(error_model):
         ideal = PixelOutcomes(scene, without_shortcuts(error_model), behaviour, bound)
         places = [i for i, color in enumerate(colors) if color and may_look_different(color, pixels[i], truth)]
-        brightest = brightest_of(colors)
-        due, _ = ideal.colors_and_hits([pixels[place] for place in places], with_hits=False, brightest=brightest)
-        for place, color in zip(places, due, strict=True):
-            is_due = all_due(color) if color else proven(pixels[place], truth)
-            outcomes[place] = beside_what_is_due(outcomes[place], is_due)
+        for place, due in _due_outcomes(ideal, pixels, colors, places, truth).items():
+            outcomes[place] = beside_what_is_due(outcomes[place], due)
         if error_model.ray_offset.minimum_distance > 0.0:  # the one shortcut that camera rays take
             _, due_hits = ideal.colors_and_hits(pixels, with_colors=False)
             first_hits = [hits_beside_what_is_due(*both) for both in zip(hits, due_hits, strict=True)]
     return _as_arrays(scene, error_model, outcomes, first_hits)
+
+
+def _due_outcomes(
+    ideal: PixelOutcomes,
+    pixels: Sequence[Pixel],
+    colors: Sequence[Colors | None],
+    places: Sequence[int],
+    truth: CertifiedImage | None,
+) -> dict[int, Outcomes]:
+    """What is due at these places: the outcomes without shortcuts, or the truth where nothing can be said of them.
+
+    What took too long with shortcuts would take as long without, so that the truth does there, too.
+    """
+    due = {place: proven(pixels[place], truth) for place in places}
+    spent = {place for place in places if (color := colors[place]) and color.spent}
+    sought = [place for place in places if place not in spent or not due[place].boxes]
+    found, _ = ideal.colors_and_hits(
+        [pixels[place] for place in sought], with_hits=False, brightest=brightest_of(colors)
+    )
+    return due | {place: all_due(color) for place, color in zip(sought, found, strict=True) if color}
 
 
 def _as_arrays(scene: Scene, error_model: ErrorModel, outcomes: list[Outcomes], hits: list[DueHits]) -> FeasibleSet:

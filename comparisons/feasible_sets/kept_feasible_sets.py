@@ -16,7 +16,7 @@ import numpy as np
 
 from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet, feasible_set
 from raytruth.reference_tracer.certified_image import TRUTH_ROOMS, certified_image
-from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
+from raytruth.reference_tracer.storage.cache import cache_folder, keep
 from raytruth.reference_tracer.storage.source_digest import source_digest
 
 if TYPE_CHECKING:
@@ -65,8 +65,7 @@ def _digest(*parts: str) -> str:
 def _write(path: Path, key: str, feasible: FeasibleSet) -> None:
     """Most places for outcomes are unused, which compresses well."""
     arrays = {field.name: getattr(feasible, field.name) for field in fields(FeasibleSet)}
-    with kept_file(path) as file:
-        np.savez_compressed(file, allow_pickle=False, key=np.array(key), **arrays)
+    keep(path, lambda file: np.savez_compressed(file, allow_pickle=False, key=np.array(key), **arrays))
 
 
 def _read(path: Path, key: str) -> FeasibleSet | None:

@@ -16,7 +16,7 @@ from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.arithmetics.balls import MARGIN_BITS, Decisions, ball_arithmetic, rounded_ball_arithmetic
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, merged
 from raytruth.reference_tracer.arithmetics.linked_arithmetic import linked_arithmetic
-from raytruth.reference_tracer.arithmetics.linked_balls import condensed, enclose, enclosure
+from raytruth.reference_tracer.arithmetics.linked_balls import condensed, enclose, enclosure, work_done
 from raytruth.reference_tracer.rendering import prepare
 from raytruth.reference_tracer.source.scene_data import MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX, rows_of
 from raytruth.reference_tracer.source.traversal import NOTHING
@@ -50,6 +50,9 @@ class RoundedRays(Protocol):
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
         """What a ray brings by itself, and the rays that go on from its end."""
 
+    def work_done(self) -> int:
+        """A measure of all work so far that depends on no clock."""
+
     def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
         """The primitive that a primary ray meets (-1: none), and balls for distance, position and normal."""
 
@@ -82,6 +85,10 @@ class PlainRays:
         """What a ray brings by itself, as balls, and the rays that go on from its end."""
         children: list[Ray] = []
         return self.prepared.kernel.trace_ray(self.prepared.data, ray, children), children
+
+    def work_done(self) -> int:
+        """Comparisons, of which a bundle's way through boxes, triangles and spheres is made."""
+        return self.decisions.comparisons
 
     def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
         """The primitive that a primary ray meets (-1: none), and balls for distance, position and normal."""
@@ -123,6 +130,10 @@ class LinkedRays:
         local = kernel.trace_ray(self.prepared.data, (origin, direction, linked_weight, *rest), children)
         enclose([*local, *(number for child in children for vector in child[:3] for number in vector)])
         return _box(local), [(*_condensed_ray(child[0], child[1]), _box(child[2]), *child[3:]) for child in children]
+
+    def work_done(self) -> int:
+        """As linked_balls.py counts it: some take a hundred times as long for a comparison as others."""
+        return work_done()
 
     def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:
         """The primitive that a primary ray meets (-1: none), and balls for distance, position and normal."""

@@ -18,6 +18,7 @@ from raytruth.comparisons.kills.set_cover import smallest_cover
 from raytruth.comparisons.measures.public_gates import GATES
 from raytruth.comparisons.records.kill_results import KILLS_FILE, FaultResult, KillResults, VariantResult
 from raytruth.reference_tracer.certified_image import collect_garbage_rarely
+from raytruth.reference_tracer.storage.cache import cache_folder
 from raytruth.reference_tracer.storage.source_digest import source_digest
 from raytruth.reference_tracer.storage.whole_files import write_whole
 
@@ -54,6 +55,7 @@ def run_kills(scenes: Sequence[Scene], directory: Path, jobs: int, *, fresh: boo
             waiting.append(scene)
     if not waiting:
         return
+    cache_folder()  # what must be told of it is told once, not by each process
     with ProcessPoolExecutor(min(jobs, len(waiting)), get_context("spawn"), collect_garbage_rarely) as pool:
         # Deep ray trees take longest: first, so that none is left for the end.
         waiting.sort(key=lambda scene: -scene.max_depth)

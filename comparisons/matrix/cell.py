@@ -15,6 +15,7 @@ from raytruth.comparisons.judgement.exact_test import largest_error
 from raytruth.comparisons.judgement.first_hit_test import judge_first_hits, verdict_of_first_hits
 from raytruth.comparisons.judgement.pixel_verdict import together, with_shortcuts
 from raytruth.comparisons.judgement.verdict import judge_exact, judge_light_paths, judge_noisy, of_pixel_areas
+from raytruth.comparisons.matrix.whole_cells import CELL_FILE, files_digest
 from raytruth.comparisons.records.image_files import write_image
 from raytruth.comparisons.records.pixel_evidence import write_pixel_evidence
 from raytruth.comparisons.records.renderings import RendererError
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from raytruth.comparisons.renderers.protocol import Integrator, Renderer
     from raytruth.scenes.scene import Scene
 
-CELL_FILE = "cell.json"
 TRUTH_FILE = "truth.exr"
 AREA_MEANS_FILE = "area-means.exr"
 LOG_FILE = "log.txt"
@@ -143,13 +143,17 @@ def _written(rendering: Rendering, judged: ImageVerdict, truth: str, place: Cell
     write_image(folder / "render.exr", rendering.image.astype(np.float32))
     write_image(folder / "tolerances.exr", _in_float32(judged.distances))
     write_pixel_evidence(folder / "feasible.exr", judged.pixels)
-    return Images(
+    images = Images(
         render=f"{place.folder}/render.exr",
         truth=truth,
         tolerances=f"{place.folder}/tolerances.exr",
         feasible=f"{place.folder}/feasible.exr",
         variance=_write_variance(rendering, place, folder),
     )
+    # The truth of the scene lies beside the folders of its cells, and what is unfinished lies beside its place.
+    files = (folder.parent / Path(path).relative_to(Path(place.folder).parent) for path in images.paths)
+    own = (folder / path.name if path.parent.name == Path(place.folder).name else path for path in files)
+    return images.model_copy(update={"digest": files_digest(own)})
 
 
 def _check_sizes(rendering: Rendering, gives: str, truth: NDArray[np.float64]) -> None:

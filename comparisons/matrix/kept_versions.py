@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from raytruth.comparisons.matrix.cell_key import adapter_digest
 from raytruth.reference_tracer.certified_image import TRUTH_ROOMS
-from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
+from raytruth.reference_tracer.storage.cache import cache_folder, keep
 from raytruth.reference_tracer.storage.source_digest import source_digest
 
 if TYPE_CHECKING:
@@ -58,8 +58,8 @@ def tried_version(renderer: Renderer) -> str | None:
     if version is None:
         _file(renderer).unlink(missing_ok=True)
     else:
-        with kept_file(_file(renderer)) as file:
-            file.write_text(f"{_circumstances(renderer)}\n{version}\n", encoding="utf-8")
+        text = f"{_circumstances(renderer)}\n{version}\n"
+        keep(_file(renderer), lambda file: file.write_text(text, encoding="utf-8"))
     return version
 
 

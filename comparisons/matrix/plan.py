@@ -6,10 +6,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.matrix.cell import CELL_FILE, CellPlace, settled_cell
+from raytruth.comparisons.matrix.cell import CellPlace, settled_cell
 from raytruth.comparisons.matrix.cell_key import cell_key, scene_digest
 from raytruth.comparisons.matrix.comparability import depth_or_reason
 from raytruth.comparisons.matrix.kept_versions import kept_version, tried_version
+from raytruth.comparisons.matrix.whole_cells import whole_cell
 from raytruth.comparisons.records.results import Cell, Verdict
 from raytruth.comparisons.renderers.protocol import error_model_of, why_unavailable
 
@@ -111,14 +112,10 @@ def _step(place: CellPlace) -> Cell | PlannedCell:
         return settled_cell(place, Verdict.INCOMPARABLE, depth)
     error_model = error_model_of(place.renderer, place.version)
     assert error_model is not None, "else it is unavailable"
-    return PlannedCell(place, depth, error_model)
+    return PlannedCell(place, depth, error_model.in_scene(place.scene))
 
 
 def _finished(directory: Path, place: CellPlace) -> Cell | None:
     """The cell of an earlier run, if nothing it depends on has changed; an error is tried again."""
-    try:
-        text = (directory / place.folder / CELL_FILE).read_text(encoding="utf-8")
-        cell = Cell.model_validate_json(text)
-    except (OSError, ValueError):
-        return None
-    return cell if cell.key == place.key and cell.verdict != Verdict.ERROR else None
+    cell = whole_cell(directory, place.folder)
+    return cell if cell is not None and cell.key == place.key and cell.verdict != Verdict.ERROR else None

@@ -13,22 +13,19 @@ from contextlib import contextmanager
 from importlib.metadata import version
 from typing import TYPE_CHECKING, TypeVar
 
-from raytruth.comparisons.matrix.cell import CELL_FILE, UNFINISHED_CELL
+from raytruth.comparisons.matrix.cell import UNFINISHED_CELL
+from raytruth.comparisons.matrix.earlier_results import earlier_results, renderer_record, scene_record
+from raytruth.comparisons.matrix.whole_cells import CELL_FILE
 from raytruth.comparisons.measures.metrics import compute_metrics_batch
 from raytruth.comparisons.records.image_files import ImageError, read_image
 from raytruth.comparisons.records.results import (
     RESULTS_FILE,
-    SCHEMA_VERSION,
     Cell,
     RendererRecord,
     Results,
     SceneRecord,
 )
-from raytruth.comparisons.renderers.catalogue import family_of
-from raytruth.comparisons.renderers.protocol import shown_error_model
 from raytruth.reference_tracer.storage.whole_files import write_whole
-from raytruth.scenes.light_paths import whitted_class
-from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -83,7 +80,7 @@ def write_results(
     Beside each renderer stands its version, None where it cannot run here.
     Where that changes nothing, the file stays as it is, with the date of the results that it holds.
     """
-    earlier = _earlier(directory)
+    earlier = earlier_results(directory)
     place = {cell_place(cell): number for number, cell in enumerate(cells)}
     kept = [cell for cell in earlier.cells if cell_place(cell) not in place] if earlier else []
     results = Results(
@@ -91,8 +88,8 @@ def write_results(
         created=datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds"),
         command=command,
         machine=_machine(),
-        scenes=_by_name((*(earlier.scenes if earlier else ()), *(_scene_record(scene) for scene in scenes))),
-        renderers=_by_name((*(earlier.renderers if earlier else ()), *(_renderer_record(*pair) for pair in renderers))),
+        scenes=_by_name((*(earlier.scenes if earlier else ()), *(scene_record(scene) for scene in scenes))),
+        renderers=_by_name((*(earlier.renderers if earlier else ()), *(renderer_record(*pair) for pair in renderers))),
         cells=tuple(sorted((*kept, *cells), key=cell_place)),
     )
     if earlier is not None and results.model_copy(update={"created": earlier.created}) == earlier:
@@ -129,47 +126,14 @@ def _measured(directory: Path, cells: Iterable[Cell]) -> list[Cell]:
     measured = []
     for cell, metrics in zip(readable, compute_metrics_batch(pairs), strict=True):
         complete = cell.model_copy(update={"metrics": metrics})
-        folder = f"cells/{cell.scene}/{cell.renderer}-{cell.integrator}"
-        write_whole(directory / folder / CELL_FILE, complete.model_dump_json(indent=1))
+        write_whole(directory / cell.folder / CELL_FILE, complete.model_dump_json(indent=1))
         measured.append(complete)
     return measured
-
-
-def _earlier(directory: Path) -> Results | None:
-    """What the directory holds already; nothing if that is of another version of the format."""
-    try:
-        results = Results.model_validate_json((directory / RESULTS_FILE).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
-    return results if results.schema_version == SCHEMA_VERSION else None
 
 
 def _by_name(records: Iterable[Named]) -> tuple[Named, ...]:
     """The last record of each name."""
     return tuple({record.name: record for record in records}.values())
-
-
-def _scene_record(scene: Scene) -> SceneRecord:
-    return SceneRecord(
-        name=scene.name,
-        purpose=scene.purpose,
-        convention=scene.convention,
-        width=scene.camera.width,
-        height=scene.camera.height,
-        features=tuple(sorted(required_features(scene))),
-        light_paths=whitted_class(scene),
-    )
-
-
-def _renderer_record(renderer: Renderer, its_version: str | None) -> RendererRecord:
-    return RendererRecord(
-        name=renderer.name,
-        version=its_version,
-        install=renderer.install,
-        error_model=shown_error_model(renderer, its_version).description,
-        integrators={integrator.name: integrator.light_paths.format(depth="n") for integrator in renderer.integrators},
-        family=family_of(renderer.name),
-    )
 
 
 def _machine() -> dict[str, str]:

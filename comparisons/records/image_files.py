@@ -20,6 +20,10 @@ CHANNEL_NAMES = {1: ("Y",), 3: ("R", "G", "B")}
 """What OpenEXR calls the channels of a grey and of a colour image (Technical Introduction to OpenEXR, 2006)."""
 
 
+NO_DATE = "1970:01:01 00:00:00"
+"""In every file, instead of when it was written: so the same pixels are the same bytes."""
+
+
 class ImageError(Exception):
     """A file that is not an image we can use, or cannot be written; the message is one sentence."""
 
@@ -44,11 +48,12 @@ def write_channels(path: Path, image: NDArray[np.float32], names: Sequence[str])
     height, width, channels = image.shape
     spec = OpenImageIO.ImageSpec(width, height, channels, "float")
     spec.channelnames = tuple(names)
+    spec.attribute("DateTime", NO_DATE)
     try:
         with unfinished_file(path) as file:
             buffer = OpenImageIO.ImageBuf(spec)
             buffer.set_pixels(OpenImageIO.ROI.All, image)
-            if not buffer.write(str(file)):
+            if not buffer.write(_name_of(file)):
                 raise ImageError(f"{path}: the image could not be written ({_text(buffer.geterror)})")
     except OSError as error:
         raise ImageError(f"{path}: the image could not be written ({error.strerror})") from error
@@ -75,13 +80,15 @@ def read_channels(
     """
     if not path.is_file():
         raise ImageError(f"{path}: there is no such image file")
-    source = OpenImageIO.ImageInput.open(str(path))
+    source = OpenImageIO.ImageInput.open(_name_of(path))
     if source is None:
         raise ImageError(f"{path}: expected an OpenEXR image, but it cannot be opened ({_text(OpenImageIO.geterror)})")
     try:
         names = _names_in_header(path, source)
         if not are_right(names):
             raise ImageError(f"{path}: expected {expected}, found {len(names)}: {', '.join(names)}")
+        if source.seek_subimage(1, 0):
+            raise ImageError(f"{path}: expected an image of one part, found several; write each to its own file")
         pixels = source.read_image("float")
         if pixels is None or source.has_error:
             raise ImageError(f"{path}: the image is damaged ({_text(source.geterror)})")
@@ -92,11 +99,24 @@ def read_channels(
     return np.asarray(pixels, dtype=np.float32), names
 
 
+def _name_of(path: Path) -> str:
+    """For OpenImageIO, which takes text only."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError as error:
+        raise ImageError(f"{path}: expected a file name in UTF-8; rename it") from error
+    return str(path)
+
+
 def _names_in_header(path: Path, source: OpenImageIO.ImageInput) -> tuple[str, ...]:
     """Look at the header before any pixel is read, since a damaged one may ask for all the memory there is."""
     if source.format_name() != "openexr":
         raise ImageError(f"{path}: expected an OpenEXR image with linear values, found {source.format_name()}")
     spec = source.spec()
+    kinds = {str(kind) for kind in (spec.format, *spec.channelformats)}
+    if spec.deep or not kinds <= {"half", "float"}:
+        found = "deep pixels" if spec.deep else " and ".join(sorted(kinds))
+        raise ImageError(f"{path}: expected pixels in half or float, found {found}")
     if max(spec.width, spec.height) > LARGEST_SIDE:
         raise ImageError(f"{path}: {spec.width}x{spec.height} pixels, expected at most {LARGEST_SIDE} a side")
     display = (spec.full_x, spec.full_y, spec.full_width, spec.full_height)

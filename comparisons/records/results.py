@@ -6,6 +6,7 @@ cell as float32 EXR. Paths in the file are relative to the directory.
 
 from __future__ import annotations
 
+from collections import Counter
 from enum import StrEnum
 from typing import Annotated
 
@@ -135,6 +136,13 @@ class Images(Record):
     feasible: str
     """What each pixel is held to: channels and their meaning in pixel_evidence.py."""
     variance: str | None = None
+    digest: str = ""
+    """Of the content of all these files (whole_cells.py): a cell whose images are others is not taken over."""
+
+    @property
+    def paths(self) -> list[str]:
+        """All of them, always in the same order."""
+        return [path for path in (self.render, self.truth, self.tolerances, self.feasible, self.variance) if path]
 
 
 Link = Annotated[str, Field(pattern=r"^https://[^\s]+$")]
@@ -177,6 +185,11 @@ class Cell(Record):
     key: str = ""
     """Hash of all the cell depends on; a cell with the same key need not be run again."""
 
+    @property
+    def folder(self) -> str:
+        """Where its files lie if it was rendered, relative to the results directory."""
+        return f"cells/{self.scene}/{self.renderer}-{self.integrator}"
+
 
 class SceneRecord(Record):
     """What the report says of a scene."""
@@ -217,3 +230,27 @@ class Results(Record):
     scenes: tuple[SceneRecord, ...]
     renderers: tuple[RendererRecord, ...]
     cells: tuple[Cell, ...]
+
+
+def inconsistency(results: Results) -> str | None:
+    """What is wrong with the lists, as a clause: each cell must have its row and column, and all only once.
+
+    Else the matrix would hide a cell. None if nothing is wrong.
+    """
+    scenes = {scene.name for scene in results.scenes}
+    renderers = {renderer.name for renderer in results.renderers}
+    for cell in results.cells:
+        if cell.scene not in scenes:
+            return f"has a cell of the scene {cell.scene!r}, which its list of scenes lacks"
+        if cell.renderer not in renderers:
+            return f"has a cell of the renderer {cell.renderer!r}, which its list of renderers lacks"
+    names = {
+        "scene": [scene.name for scene in results.scenes],
+        "renderer": [renderer.name for renderer in results.renderers],
+        "cell": [f"{cell.scene} {cell.renderer}/{cell.integrator}" for cell in results.cells],
+    }
+    for kind, listed in names.items():
+        for name, count in Counter(listed).items():
+            if count > 1:
+                return f"lists the {kind} {name!r} {count} times; expected once"
+    return None

@@ -18,7 +18,7 @@ from raytruth.comparisons.processes.isolation import run_isolated
 from raytruth.comparisons.records.renderings import RendererError, Rendering
 from raytruth.comparisons.renderers.protocol import Integrator
 from raytruth.scenes.exporters.povray import SCENE_FILE, export_povray, options_of
-from raytruth.scenes.exporters.povray_limits import UNIT, refuses
+from raytruth.scenes.exporters.povray_limits import FARTHEST, LARGEST_UNIT, refuses
 from raytruth.scenes.light_paths import WHITTED
 
 if TYPE_CHECKING:
@@ -37,11 +37,12 @@ RAY_BITS = 53 - 8
 INDEX_BITS = 24
 # Hits nearer than MIN_ISECT_DEPTH to where a ray starts are ignored (configbackend.h line 170; render/trace.cpp,
 # `FindIntersection`). Those of spheres and triangles ignore 1e-6 by themselves, which is less. Our lengths are
-# multiplied by the exporter's unit.
-MINIMUM_DISTANCE = 1e-4 / UNIT
+# multiplied by the exporter's unit, which is smaller only for scenes larger than LARGEST_EXTENT.
+MINIMUM_DISTANCE = 1e-4 / LARGEST_UNIT
 # What throws a shadow must be farther than SHADOW_TOLERANCE from the point and from the light (render/trace.cpp
 # line 66, `TracePointLightShadowRay`), unless it threw the last one, too: then MIN_ISECT_DEPTH and 0 suffice.
-SHADOW_TOLERANCE = 1e-3 / UNIT
+SHADOW_TOLERANCE = 1e-3 / LARGEST_UNIT
+LARGEST_EXTENT = FARTHEST / LARGEST_UNIT
 # Colours are float32 (COLC in base/types.h), and so are all numbers of a finish. On its way to the picture a colour is
 # rounded by at most 12 operations at the surface that is lit, 2 more a light, and 8 at each reflection or refraction:
 # weight, medium, product, sum, and the three of an average. That is under 2^7 for the 12 bounces that the exporter
@@ -69,6 +70,7 @@ class PovRay:
         precision_bits=RAY_BITS,
         ray_offset=RayOffset(minimum_distance=MINIMUM_DISTANCE, excludes_surface=False),
         shadow_tolerance=SHADOW_TOLERANCE,
+        largest_extent=LARGEST_EXTENT,
         index_bits=INDEX_BITS,
         # source/base/image/encoding.h, `IntEncode`: floor(clip(x, 0, 1)·65535 + 0.5).
         output=OutputModel("uint16", bracketed=True, color_error=COLOR_ERROR),

@@ -24,6 +24,8 @@ class Decisions:
     def __init__(self) -> None:
         self.answers: list[bool] = []
         self.position = 0
+        self.comparisons = 0
+        """How many comparisons there were, decided or not: a measure of work that depends on no clock."""
 
     def follow(self, script: list[bool]) -> None:
         """Begin a new evaluation, whose undecided comparisons are answered by this script."""
@@ -110,13 +112,16 @@ def _rounding(function: Any, about_one: Any) -> Any:
     return lambda *arguments: function(*arguments) * about_one
 
 
-def every_outcome(run: Callable[[], Any], decisions: Decisions, limit: int) -> Iterator[Any]:
+def every_outcome(
+    run: Callable[[], Any], decisions: Decisions, limit: int, *, all_or_none: bool = False
+) -> Iterator[Any]:
     """The results of `run` for every way its undecided comparisons can go; stops after `limit` of them.
 
-    Each script ends in the opposite of one recorded answer, so no way is taken twice.
+    Each script ends in the opposite of one recorded answer, so no way is taken twice. Every script that waits leads to
+    a way of its own at least: who can use all ways or none need not run those that are too many.
     """
     scripts: list[list[bool]] = [[]]
-    for _ in range(limit):
+    for taken in range(1, limit + 1):
         script = scripts.pop()
         decisions.follow(script)
         yield run()
@@ -124,6 +129,8 @@ def every_outcome(run: Callable[[], Any], decisions: Decisions, limit: int) -> I
         scripts.extend([*answers[:place], not answers[place]] for place in range(len(script), len(answers)))
         if not scripts:
             return
+        if all_or_none and taken + len(scripts) > limit:
+            break
     raise TooManyOutcomesError
 
 
@@ -135,6 +142,7 @@ def comparison_functions(decisions: Decisions) -> dict[str, Callable[[Any, Any],
     """The source's comparisons of balls, by name: what balls leave open is asked of the decisions."""
 
     def is_less(a: Any, b: Any) -> bool:
+        decisions.comparisons += 1
         if a < b:
             return True
         if a >= b:
@@ -142,6 +150,7 @@ def comparison_functions(decisions: Decisions) -> dict[str, Callable[[Any, Any],
         return decisions.next()
 
     def is_less_or_equal(a: Any, b: Any) -> bool:
+        decisions.comparisons += 1
         if a <= b:
             return True
         if a > b:
@@ -149,6 +158,7 @@ def comparison_functions(decisions: Decisions) -> dict[str, Callable[[Any, Any],
         return decisions.next()
 
     def is_equal(a: Any, b: Any) -> bool:
+        decisions.comparisons += 1
         if a == b:
             return True
         if a != b:

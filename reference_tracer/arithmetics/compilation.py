@@ -15,7 +15,8 @@ import numpy as np
 
 from raytruth.reference_tracer.arithmetics import compiled_stack
 from raytruth.reference_tracer.arithmetics.instantiation import COMPILED_ENTRY_POINTS
-from raytruth.reference_tracer.storage.cache import cache_folder, kept_file
+from raytruth.reference_tracer.storage.cache import cache_folder
+from raytruth.reference_tracer.storage.whole_files import write_whole
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -96,8 +97,8 @@ def compiled_module(text: str) -> ModuleType:
     everything = f"{numba.__version__}\n{np.__version__}\n{stack}\n{text}"
     path = cache_folder() / "kernels" / f"kernel_{hashlib.sha256(everything.encode()).hexdigest()[:16]}.py"
     if not path.exists():
-        with kept_file(path) as file:
-            file.write_text(text, encoding="utf-8")
+        path.parent.mkdir(exist_ok=True)
+        write_whole(path, text)
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.scenes.exporters.povray_limits import UNIT, refuses, spans_of
+from raytruth.scenes.exporters.povray_limits import refuses, unit_of
 from raytruth.scenes.exporters.povray_materials import declare_material, fading, interior_of, polynomial_falloff
 from raytruth.scenes.exporters.povray_text import block, color, comment, vector
+from raytruth.scenes.extent import spans_of
 from raytruth.scenes.lights import ConstantBackground, PointLight
 from raytruth.scenes.shapes import Mesh, Sphere
 
@@ -26,13 +27,13 @@ HOLE_RADIUS = 5e-6
 # A parallel light of POV-Ray throws no shadows of what is behind its position: in radii of a ball around all objects.
 SUN_DISTANCE = 2.0
 
-HEADER = f"""\
+HEADER = """\
 #version 3.7;
 // POV-Ray ignores what is nearer than 0.0001 to where a ray starts, and shadows of what is nearer than 0.001.
 // So all lengths are multiplied by this.
-#declare unit = {UNIT};
+#declare unit = {unit};
 // All that shines is multiplied by this; a smaller one keeps bright pictures from being clipped.
-#declare exposure = {{exposure!r}};
+#declare exposure = {exposure!r};
 // The weight of all but the first term in a material: see below.
 #declare faint = pow(2, -30);
 """
@@ -51,7 +52,7 @@ def export_povray(scene: Scene, folder: Path, *, exposure: float = 1.0, file_nam
     parts = [
         comment(f"{scene.name or 'scene'}: {scene.purpose}"),
         comment(f"povray {file_name} {' '.join(options_of(scene))}"),
-        HEADER.format(exposure=exposure),
+        HEADER.format(unit=unit_of(scene), exposure=exposure),
         _settings(scene),
         _camera(scene),
         _background(scene),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.scenes.exporters.povray_materials import polynomial_falloff
+from raytruth.scenes.extent import extent_of
 from raytruth.scenes.features import BACKGROUNDS, FURTHER_RAYS, GEOMETRY, LIGHTS, LOCAL_TERMS, missing_features
 from raytruth.scenes.media import relative_index
 from raytruth.scenes.requirements import required_features
@@ -24,10 +25,10 @@ if TYPE_CHECKING:
     from raytruth.scenes.shapes import Shape
 
 EXPRESSES = GEOMETRY | BACKGROUNDS | LIGHTS | LOCAL_TERMS | FURTHER_RAYS
-UNIT = 1024
-"""POV-Ray's units in a unit of the scene: a power of two rounds nothing."""
+LARGEST_UNIT = 1024
+"""POV-Ray's units in a unit of the scene, at most."""
 # POV-Ray meets nothing farther than this (MAX_DISTANCE in source/backend/configbackend.h of version 3.7.0.10).
-FARTHEST = 1e7 / UNIT
+FARTHEST = 1e7
 # Its colours are float32, whose roundings the error model counts for this many reflections and refractions.
 DEEPEST = 12
 
@@ -36,33 +37,25 @@ def refuses(scene: Scene) -> str | None:
     """Why POV-Ray cannot express this scene, in one clause that follows 'because'; None if it can."""
     if scene.max_depth > DEEPEST:
         return f"POV-Ray computes colours in float32, whose roundings are bounded for {DEEPEST} bounces"
-    if _extent(scene) > FARTHEST:
-        return f"POV-Ray meets nothing that is farther than {FARTHEST:.4g} units away"
+    reach = extent_of(scene)
+    if reach > FARTHEST:
+        return f"POV-Ray meets nothing that is farther than {FARTHEST:.0e} units away, and rays may go {reach:.2g} here"
     if len(scene.lights) > 1 and any(polynomial_falloff(light) for light in scene.lights):
         return "lights of POV-Ray lack this polynomial attenuation, and a filter in its place would dim others, too"
     reason = _refuses_dielectrics(scene) if scene.max_depth else None
     return reason or missing_features("POV-Ray", EXPRESSES, required_features(scene))
 
 
-def spans_of(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Balls that hold all objects: centres of spheres with their radii, and corners; shapes (n, 3) and (n,)."""
-    balls: list[tuple[tuple[float, float, float], float]] = []
-    for shape in scene.objects:
-        if isinstance(shape, Sphere):
-            balls.append((shape.center, shape.radius))
-        else:
-            balls.extend((vertex, 0.0) for vertex in shape.vertices)
-    return np.array([center for center, _ in balls]), np.array([radius for _, radius in balls])
+def unit_of(scene: Scene) -> int:
+    """POV-Ray's units in a unit of the scene, at least 1.
 
-
-def _extent(scene: Scene) -> float:
-    """A bound on the distance of any two points of the scene, lights and camera included."""
-    centers, radii = spans_of(scene)
-    others = [scene.camera.position, *(light.position for light in scene.lights if light.kind == "point")]
-    low = np.vstack([centers - radii[:, None], others]).min(axis=0)
-    high = np.vstack([centers + radii[:, None], others]).max(axis=0)
-    # A parallel light stands beyond all objects; an orthographic camera's rays start beside its position.
-    return 4 * float(np.linalg.norm(high - low))
+    A power of two, which rounds nothing, as large as POV-Ray's farthest distance allows: what it ignores near the start
+    of a ray is then as near as can be.
+    """
+    unit = LARGEST_UNIT
+    while unit > 1 and extent_of(scene) * unit > FARTHEST:
+        unit //= 2
+    return unit
 
 
 def _refuses_dielectrics(scene: Scene) -> str | None:

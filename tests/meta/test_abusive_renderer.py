@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from raytruth.comparisons.matrix.cell import CELL_FILE, LOG_FILE, TRUTH_FILE
+from raytruth.comparisons.matrix.cell import LOG_FILE, TRUTH_FILE
 from raytruth.comparisons.matrix.plan import PlannedCell
 from raytruth.comparisons.matrix.run import make_truth, run_cells
+from raytruth.comparisons.matrix.whole_cells import CELL_FILE
 from raytruth.comparisons.records.results import Verdict
 from tests.comparisons.matrix.cell_places import place_of
 from tests.comparisons.processes.test_isolation import assert_ends, children

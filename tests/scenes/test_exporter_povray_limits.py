@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 
-from raytruth.scenes.exporters.povray_limits import refuses
+from raytruth.scenes.exporters.povray_limits import FARTHEST, LARGEST_UNIT, refuses, unit_of
+from raytruth.scenes.extent import extent_of
 from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, MIRROR, POINT, RED, SUN, build
 
 pytestmark = pytest.mark.clause("REN-3")
@@ -38,7 +39,7 @@ def glass(**changes: Any) -> dict[str, Any]:
     ("changes", "word"),
     [
         ({"max_depth": 13}, "float32"),
-        ({"objects": [BALL | {"center": (9e5, 0.0, 0.0)}]}, "farther"),
+        ({"objects": [BALL | {"center": (9e6, 0.0, 0.0)}]}, "farther than 1e+07 units"),
         ({"lights": [POLYNOMIAL, SUN]}, "polynomial"),
         (glass(materials={"m": {"dielectric": WEIGHTS | {"index_of_refraction": 0.7}}}), "totally reflected"),
         (glass(materials={"m": {"dielectric": WEIGHTS | {"reflectance": (0.1, 0.0, 0.1)}}}), "weight of 0"),
@@ -104,3 +105,20 @@ def test_any_other_dielectric_at_another_is_refused(inner: dict[str, Any], chang
 )
 def test_what_povray_can_express_is_not_refused(changes: dict[str, Any]) -> None:
     assert refuses(build(**changes)) is None
+
+
+@pytest.mark.parametrize("radius", [10.0 ** (exponent / 2) for exponent in range(15)])
+def test_the_unit_is_the_largest_power_of_two_with_which_all_is_near_enough(radius: float) -> None:
+    scene = build(objects=[BALL, BALL | {"center": (0.0, -radius, 0.0), "radius": radius}])
+    if refuses(scene) is not None:
+        assert extent_of(scene) > FARTHEST
+        return
+    unit = unit_of(scene)
+    assert unit.bit_count() == 1
+    assert extent_of(scene) * unit <= FARTHEST
+    assert unit == LARGEST_UNIT or extent_of(scene) * 2 * unit > FARTHEST
+
+
+def test_the_usual_ground_sphere_is_not_refused() -> None:
+    ground = BALL | {"center": (0.0, -1000.0, 0.0), "radius": 1000.0}
+    assert refuses(build(objects=[BALL, ground], lights=[POINT, SUN])) is None

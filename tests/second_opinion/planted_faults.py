@@ -33,7 +33,7 @@ def half_of_the_exponent() -> None:
     """Phong's highlight is too wide."""
 
 
-@planted("is_even_square", Edit("(column + line) % 2 == 0", "floor((u + v) / size) % 2 == 0"))
+@planted("is_even_square", Edit("(column + row) % 2 == 0", "floor((u + v) / size) % 2 == 0"))
 def squares_in_one_floor() -> None:
     """Column and row are added before they are rounded down: diagonal stripes."""
 

@@ -7,6 +7,7 @@ import pytest
 from raytruth.comparisons.error_models.error_model import ErrorModel, Rasterisation, RayOffset
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.scenes.library import library_names, open_scene
+from tests.reference_tracer.small_scenes import small_scene, sphere
 
 pytestmark = pytest.mark.clause("VER-1")
 
@@ -75,6 +76,18 @@ def test_an_image_radius_is_not_negative_and_told_in_words() -> None:
     assert ErrorModel("", 24).in_words()["camera rays go"] == "through the centres of pixels"
     words = ErrorModel("", 24, image_radius=0.5).in_words()
     assert words["camera rays go"] == "within 0.5 pixels of a pixel's centre, in x and in y"
+
+
+@pytest.mark.parametrize(("radius", "growth"), [(1.0, 1.0), (1e3, 1.0), (1e4, 16.0), (1e5, 128.0)])
+def test_least_distances_grow_with_the_extent_of_a_scene_by_powers_of_two(radius: float, growth: float) -> None:
+    tested = RayOffset(absolute=1e-3, minimum_distance=1e-3, excludes_surface=False)
+    model = ErrorModel("", 24, tested, shadow_tolerance=1e-2, largest_extent=16_384.0)
+    scene = small_scene(objects=[sphere("white", radius=radius)])
+    scaled = model.in_scene(scene)
+    assert scaled.ray_offset == replace(tested, minimum_distance=growth * 1e-3)
+    assert scaled.shadow_tolerance == growth * 1e-2
+    assert "farther than 1.638e+04" in model.in_words()["large scenes"]
+    assert ErrorModel("", 24, tested).in_scene(scene) == ErrorModel("", 24, tested)
 
 
 def test_the_words_have_a_clause_for_every_field() -> None:

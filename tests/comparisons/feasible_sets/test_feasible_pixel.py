@@ -25,7 +25,7 @@ def follow(request: pytest.FixtureRequest) -> Any:
 
 
 def evaluator(follow: Any, scene: Scene, bits: int = 24) -> PixelEvaluator:
-    return PixelEvaluator(follow(scene, ErrorModel("", bits)), radiance_bound(scene), 24)
+    return PixelEvaluator(follow(scene, ErrorModel("", bits)), radiance_bound(scene), 24, 10**9)
 
 
 def tangents(spheres: int, **changes: Any) -> Scene:

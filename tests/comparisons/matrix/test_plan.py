@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from raytruth.comparisons.error_models.error_model import ErrorModel
-from raytruth.comparisons.matrix.cell import CELL_FILE
 from raytruth.comparisons.matrix.plan import PlannedCell
+from raytruth.comparisons.matrix.whole_cells import CELL_FILE
 from raytruth.comparisons.records.results import Cell, Verdict
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.scenes.library import open_scene

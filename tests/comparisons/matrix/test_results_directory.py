@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from raytruth.comparisons.matrix import results_directory
-from raytruth.comparisons.matrix.cell import CELL_FILE
 from raytruth.comparisons.matrix.results_directory import with_metrics, write_results
+from raytruth.comparisons.matrix.whole_cells import CELL_FILE
 from raytruth.comparisons.records.image_files import write_image
 from raytruth.comparisons.records.results import (
     RESULTS_FILE,
@@ -42,8 +42,8 @@ def scene(name: str, purpose: str = "A test.") -> Scene:
 
 
 def written(folder: Path, cells: list[Cell], scenes: list[Scene], **pretender: Any) -> Results:
-    renderer = Pretender(**pretender)
-    return write_results(folder, "raytruth run", scenes, [(renderer, renderer.installed)], cells)
+    renderers = [Pretender(name=name, **pretender) for name in dict.fromkeys(cell.renderer for cell in cells)]
+    return write_results(folder, "raytruth run", scenes, [(it, it.installed) for it in renderers], cells)
 
 
 def read(folder: Path) -> Results:

@@ -11,9 +11,9 @@ from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.feasible_sets import kept_feasible_sets
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from raytruth.comparisons.matrix import cell_key, run
-from raytruth.comparisons.matrix.cell import CELL_FILE
 from raytruth.comparisons.matrix.plan import plan_run
 from raytruth.comparisons.matrix.run import run_plan
+from raytruth.comparisons.matrix.whole_cells import CELL_FILE
 from raytruth.comparisons.records.image_files import read_image
 from raytruth.comparisons.records.renderings import Rays, RendererError, Rendering
 from raytruth.comparisons.records.results import Verdict

@@ -119,6 +119,19 @@ def test_what_is_brighter_than_one_is_read_from_a_darker_picture(tmp_path: Path)
 
 
 @needs_povray
+@pytest.mark.parametrize("radius", [1e3, 1e5])
+def test_a_ground_sphere_lies_in_its_feasible_set_whatever_the_unit(radius: float, tmp_path: Path) -> None:
+    ball = small("single-sphere").objects[0].model_copy(update={"center": (0.0, 1.0, 0.0), "radius": 1.0})
+    ground = ball.model_copy(update={"center": (0.0, -radius, 0.0), "radius": radius})
+    scene = small("single-sphere").model_copy(update={"objects": (ball, ground)})
+    truth = np.asarray(render_reference(scene), dtype=np.float64)
+    judgement, *_ = judge_image(
+        rendered(scene, tmp_path), truth, feasible_set(scene, PovRay.error_model.in_scene(scene))
+    )
+    assert (judgement.failing, judgement.unjudged) == (0, 0), judgement.worst
+
+
+@needs_povray
 def test_the_depth_that_is_asked_for_is_rendered(tmp_path: Path) -> None:
     scene = small("facing-mirrors-depth-2")
     deep = PovRay().render(scene, "whitted", 2, primary_rays(), tmp_path).image

@@ -80,6 +80,33 @@ def test_more_outcomes_than_the_limit_are_an_error() -> None:
         list(outcomes)
 
 
+@pytest.mark.parametrize("limit", [1, 3, 4, 8, 20])
+def test_who_needs_all_outcomes_or_none_gets_the_same_ones_and_hears_early_of_too_many(limit: int) -> None:
+    decisions, runs = Decisions(), []
+    is_less = functions(53, decisions)["is_less"]
+
+    def run() -> tuple[bool, ...]:
+        runs.append(1)
+        return tuple(is_less(between(-1, 1), arb(0)) for _ in range(3))
+
+    if limit >= 8:
+        found = list(every_outcome(run, decisions, limit, all_or_none=True))
+        assert found == list(every_outcome(run, decisions, limit))
+        return
+    with pytest.raises(TooManyOutcomesError):
+        list(every_outcome(run, decisions, limit, all_or_none=True))
+    assert len(runs) == {1: 1, 3: 1, 4: 3}[limit]  # the first run leaves three others to take
+
+
+def test_comparisons_are_counted_whether_they_are_decided_or_not() -> None:
+    decisions = Decisions()
+    compare = [functions(53, decisions)[name] for name in COMPARISONS]
+    for function in compare:
+        function(arb(1), arb(2))
+        function(between(-1, 1), arb(0))
+    assert decisions.comparisons == 2 * len(compare)
+
+
 COMPARISONS = {
     "is_less": lambda a, b: a < b,
     "is_less_or_equal": lambda a, b: a <= b,

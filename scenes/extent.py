@@ -1,0 +1,35 @@
+"""How far the points of a scene lie apart."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from raytruth.scenes.shapes import Sphere
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from raytruth.scenes.scene import Scene
+
+
+def spans_of(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Balls that hold all objects: centres of spheres with their radii, and corners; shapes (n, 3) and (n,)."""
+    balls: list[tuple[tuple[float, float, float], float]] = []
+    for shape in scene.objects:
+        if isinstance(shape, Sphere):
+            balls.append((shape.center, shape.radius))
+        else:
+            balls.extend((vertex, 0.0) for vertex in shape.vertices)
+    return np.array([center for center, _ in balls]), np.array([radius for _, radius in balls])
+
+
+def extent_of(scene: Scene) -> float:
+    """A bound on how far a ray goes between any two points of the scene, lights and camera included."""
+    centers, radii = spans_of(scene)
+    others = [scene.camera.position, *(light.position for light in scene.lights if light.kind == "point")]
+    low = np.vstack([centers - radii[:, None], others]).min(axis=0)
+    high = np.vstack([centers + radii[:, None], others]).max(axis=0)
+    # A parallel light stands beyond all objects; an orthographic camera's rays start beside its position.
+    return 4 * float(np.linalg.norm(high - low))
