@@ -67,31 +67,23 @@ class PixelOutcomes:
 
         All pixels are evaluated in plain balls; in linked ones those of which plain ones say nothing, or cannot tell
         all outcomes apart, and those whose boxes are wide beside the image's brightest value, which is at least
-        `brightest`. Where plain ones have spent their work, linked ones, which take longer, are not tried.
+        `brightest`.
         """
         colors: list[Colors | None] = []
         hits: list[list[FirstHit] | None] = []
-        unclear: list[int] = []
-        for place, pixel in enumerate(pixels):
-            if with_colors:
-                plain = self._plain(self._model_of_light)
-                colors.append(_colors(plain, pixel, may_merge=False))
-                if colors[place] is None and not plain.spent:
-                    unclear.append(place)
-            else:
-                colors.append(None)
+        for pixel in pixels:
+            colors.append(_colors(self._plain(self._model_of_light), pixel, may_merge=False) if with_colors else None)
             hits.append(_first_hits(self._plain(self._model), pixel) if with_hits else None)
         if with_colors:
-            self._sharpen(pixels, colors, unclear, brightest)
+            self._sharpen(pixels, colors, brightest)
         if with_hits:
             for place in [place for place, hit in enumerate(hits) if hit is None]:
                 hits[place] = _first_hits(self._linked(self._model), pixels[place])
         return colors, hits
 
-    def _sharpen(
-        self, pixels: Sequence[Pixel], colors: list[Colors | None], unclear: list[int], brightest: float
-    ) -> None:
+    def _sharpen(self, pixels: Sequence[Pixel], colors: list[Colors | None], brightest: float) -> None:
         model = self._model_of_light
+        unclear = [place for place, color in enumerate(colors) if color is None]
         wide = _wide(colors, brightest)
         if not unclear and not wide:
             return
@@ -103,14 +95,20 @@ class PixelOutcomes:
             if colors[place] is None and not linked.spent:
                 colors[place] = _colors(self._plain(model), pixel)
         for place in sorted(set(_wide(colors, brightest)) - set(unclear)):  # fewer, now that the brightest is known
-            colors[place] = _colors(linked, pixels[place]) or colors[place]
+            colors[place] = _sharper(_colors(linked, pixels[place]), colors[place])
 
 
 def _wide(colors: Sequence[Colors | None], brightest: float) -> list[int]:
-    """Where the boxes are wide although all rays were followed."""
+    """Where boxes are wide."""
     widest_radius = WIDE * max(brightest, brightest_of(colors))
-    known = [(place, color) for place, color in enumerate(colors) if color and not color.spent]
-    return [place for place, color in known if widest(color.boxes) > widest_radius]
+    return [place for place, color in enumerate(colors) if color and widest(color.boxes) > widest_radius]
+
+
+def _sharper(linked: Colors | None, plain: Colors | None) -> Colors | None:
+    """The outcomes in linked balls, unless both ways left rays open, and they more than plain ones."""
+    if linked and plain and linked.spent and plain.spent and widest(plain.boxes) < widest(linked.boxes):
+        return plain
+    return linked or plain
 
 
 def brightest_of(colors: Sequence[Colors | None]) -> float:
