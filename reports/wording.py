@@ -62,12 +62,19 @@ def headline(results: Results) -> str:
     counts = outcome_counts(results)
     troubles = {known: counts.get(known, 0) for known in (Verdict.DECLARED, Verdict.FAIL, WAIVED, Verdict.ERROR)}
     judged = counts[Verdict.PASS] + sum(troubles.values())
-    told = [f"{count} {WORDINGS[known].counted}" for known, count in troubles.items() if count]
+    told = [f"{count} {_is(known, count)}{WORDINGS[known].counted}" for known, count in troubles.items() if count]
     if told:
         return f"Of {judged} comparable {plural('cell', judged)}, {listed(told)}"
     if judged == 0:
         return "No cell could be compared"
     return "The one comparable cell passed" if judged == 1 else f"All {judged} comparable cells passed"
+
+
+def _is(known: str, count: int) -> str:
+    """The verb that the words of an outcome lack in a sentence, and a blank."""
+    if known != Verdict.DECLARED:
+        return ""
+    return "is " if count == 1 else "are "
 
 
 def summary(results: Results) -> str:

@@ -14,7 +14,7 @@ from raytruth import run_command
 from raytruth.comparisons.matrix import run as matrix_run
 from raytruth.comparisons.matrix import waivers
 from raytruth.comparisons.records.renderings import RendererError
-from raytruth.comparisons.records.results import RESULTS_FILE, Results
+from raytruth.comparisons.records.results import RESULTS_FILE, Cell, Results, Verdict
 from raytruth.comparisons.renderers import catalogue
 from tests.comparisons.matrix.pretending import Pretender, truthful
 from tests.comparisons.matrix.scene_files import scene_file
@@ -295,3 +295,10 @@ def test_an_interrupted_run_can_be_resumed(
     assert run(capsys, "run", *sources, "--renderer", "pretender")[0] == 0
     assert pretender.calls == len(names)  # each scene was rendered once in all three runs
     assert [cell.scene for cell in results_in(folder / "results").cells] == list(names)
+
+
+@pytest.mark.clause("VER-14")
+@pytest.mark.parametrize(("strict", "status"), [(False, 0), (True, 1)])
+def test_a_cell_that_is_as_declared_fails_a_strict_run_only(strict: bool, status: int) -> None:
+    cell = Cell(scene="a", renderer="b", integrator="c", verdict=Verdict.DECLARED, reason="by its offset", command="")
+    assert run_command._status([cell], {}, [], strict=strict) == status
