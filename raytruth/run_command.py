@@ -93,9 +93,7 @@ def run(
         raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
     opened = _opened(write_quick_suite(out) if quick else scenes or library_names())
     with only_run_in(out):
-        damage = damage_of(out)
-        if damage is not None:
-            tell(f"raytruth: {damage}")
+        _tell_damage(out)
         with progress("Looking for the renderers"):
             plan = plan_run(opened, list(selected.values()), out, fresh=fresh)
         try:
@@ -113,6 +111,13 @@ def run(
         report = written_report(out, unless_current=True)
     _show(results, report, as_json)
     return _status(cells, _missing(required, plan), unmatched, strict=strict)
+
+
+def _tell_damage(out: Path) -> None:
+    """Say what of an earlier run's results cannot be read, if anything."""
+    damage = damage_of(out)
+    if damage is not None:
+        tell(f"raytruth: {damage}")
 
 
 def _selected(option: str, names: Sequence[str]) -> dict[str, Renderer]:

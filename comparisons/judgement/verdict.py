@@ -105,7 +105,7 @@ def judge_noisy(rendering: Rendering, expectation: Expectation) -> ImageVerdict:
         low[:, :, np.newaxis], high[:, :, np.newaxis], one_box, expectation.feasible.merged, declared
     )
     without_test, reason = verdict_of(judgement)
-    if without_test == Verdict.INCOMPARABLE:
+    if without_test == Verdict.INCOMPARABLE and outcome.passes:
         return ImageVerdict(judgement, outcome.test, without_test, reason, distances, pixels)
     aside = f"with {rendering.samples} samples a pixel{capped_in_words(judgement)}"
     return ImageVerdict(judgement, outcome.test, *_verdict(outcome, aside, judgement), distances, pixels)

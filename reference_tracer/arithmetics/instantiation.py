@@ -131,14 +131,18 @@ def kernel_source(
             *([_Roundings()] if rounds else []),
             *([_GuardedDivisions()] if guarded_divisions else []),
         ]
-        if changes:
-            changed = copy.deepcopy(function.definition)
-            for change in changes:
-                changed = change.visit(changed)
-            parts.append(ast.unparse(changed))
-        else:
-            parts.append(function.text)
+        parts.append(_changed_text(function, changes))
     return "\n".join(parts), {name: value for name, value in namer.names.items() if name in mentioned}
+
+
+def _changed_text(function: _PrunedFunction, changes: list[ast.NodeTransformer]) -> str:
+    """The function's text after these changes, one after the other."""
+    if not changes:
+        return function.text
+    changed = copy.deepcopy(function.definition)
+    for change in changes:
+        changed = change.visit(changed)
+    return ast.unparse(changed)
 
 
 @cache

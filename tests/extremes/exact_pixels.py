@@ -31,7 +31,7 @@ def exact_kernel(features: frozenset[str]) -> tuple[ExactArithmetic, Kernel]:
     return exact, make_kernel(exact.arithmetic, features)
 
 
-def exact_pixel(scene: Scene, column: int = 0, line: int = 0) -> Enclosure:
+def exact_pixel(scene: Scene, column: int = 0, row: int = 0) -> Enclosure:
     """As a Certifier has it, but for kernels that are kept from scene to scene. Raises UndecidedComparisonError."""
     features = frozenset(required_features(scene))
     with ctx.workprec(FEWEST_BITS):
@@ -40,7 +40,7 @@ def exact_pixel(scene: Scene, column: int = 0, line: int = 0) -> Enclosure:
         exact.restart(MOST_WORK)
         number = exact.arithmetic.number
         frame = kernel.camera_frame(data)
-        color = kernel.radiance_at(data, frame, number(column + 0.5), number(line + 0.5))
+        color = kernel.radiance_at(data, frame, number(column + 0.5), number(row + 0.5))
         return enclosure_of([channel.ball for channel in color])
 
 

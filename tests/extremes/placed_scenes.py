@@ -76,8 +76,8 @@ def looking_down(place: Place, x: float, y: float, *, height: float = SIDE / 2, 
     return camera | {"projection": "orthographic", "view_height": SIDE * place.size}
 
 
-def seen_point(x: float, y: float, column: int, line: int) -> tuple[float, float, float]:
-    return (x + column - SIDE // 2, y + SIDE // 2 - line, 0.0)
+def seen_point(x: float, y: float, column: int, row: int) -> tuple[float, float, float]:
+    return (x + column - SIDE // 2, y + SIDE // 2 - row, 0.0)
 
 
 def scene(camera: Any, objects: list[Any], materials: dict[str, Any], **more: Any) -> Scene:

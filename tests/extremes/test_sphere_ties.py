@@ -39,7 +39,7 @@ PIXELS = st.integers(0, SIDE - 1)
 @pytest.mark.clause("SHAD-1", "SHAD-4", "SPH-1", "SPH-2")
 @given(PLACES, st.sampled_from(ROUND_POINTS), QUARTERS, QUARTERS, PIXELS, PIXELS)
 def test_a_light_on_a_sphere_is_hidden_if_the_sphere_stands_before_it(
-    place: Place, round_point: tuple[Point, int], x: float, y: float, column: int, line: int
+    place: Place, round_point: tuple[Point, int], x: float, y: float, column: int, row: int
 ) -> None:
     offset, radius = round_point
     center = (x, y, radius + 1.0)
@@ -50,8 +50,8 @@ def test_a_light_on_a_sphere_is_hidden_if_the_sphere_stands_before_it(
         {"shape": "sphere", "center": place(*center), "radius": radius * place.size, "material": "grey"},
     ]
     camera = looking_down(place, 0.0, 0.0, height=0.5)  # under the sphere
-    pixel = exact_pixel(scene(camera, objects, {"grey": WHITE}, lights=[lamp(place(*light))]), column, line)
-    point = seen_point(0.0, 0.0, column, line)
+    pixel = exact_pixel(scene(camera, objects, {"grey": WHITE}, lights=[lamp(place(*light))]), column, row)
+    point = seen_point(0.0, 0.0, column, row)
     hidden = sphere_hides_from_outside(center, Fraction(radius), point, light)
     note_case(place=place, center=center, radius=radius, light=light, point=point, hidden=hidden, pixel=pixel.middle)
     assert holds_root(pixel, Fraction(0) if hidden else lit_square(point, light))
@@ -60,21 +60,19 @@ def test_a_light_on_a_sphere_is_hidden_if_the_sphere_stands_before_it(
 @pytest.mark.clause("SHAD-1", "SHAD-4", "SPH-4")
 @given(PLACES, st.sampled_from(ROUND_POINTS), st.sampled_from([40.0, 60.0, 90.0]), PIXELS, PIXELS)
 def test_a_light_on_a_sphere_is_seen_from_everywhere_inside(
-    place: Place, round_point: tuple[Point, int], angle: float, column: int, line: int
+    place: Place, round_point: tuple[Point, int], angle: float, column: int, row: int
 ) -> None:
     light, radius = round_point
     ball = {"shape": "sphere", "center": (0.0, 0.0, 0.0), "radius": radius * place.size, "material": "grey"}
     camera = looking_down(place, 0.0, 0.0, height=0.0, perspective=True) | {"vertical_field_of_view": angle}
-    pixel = exact_pixel(scene(camera, [ball], {"grey": WHITE}, lights=[lamp(place(*light))]), column, line)
+    pixel = exact_pixel(scene(camera, [ball], {"grey": WHITE}, lights=[lamp(place(*light))]), column, row)
     with mpmath.workprec(200):
         step = 2 * mpmath.tan(mpmath.radians(angle) / 2) / SIDE
-        direction = ((column - SIDE // 2) * step, (SIDE // 2 - line) * step, mpmath.mpf(-1))
+        direction = ((column - SIDE // 2) * step, (SIDE // 2 - row) * step, mpmath.mpf(-1))
         length = mpmath.sqrt(sum(part * part for part in direction))
         chord = mpmath.sqrt(sum((li - radius * part / length) ** 2 for li, part in zip(light, direction, strict=True)))
         value = GREY * chord / (2 * radius)  # the cosine at either end of a chord
-        note_case(
-            place=place, light=light, angle=angle, column=column, line=line, pixel=pixel.middle, value=float(value)
-        )
+        note_case(place=place, light=light, angle=angle, column=column, row=row, pixel=pixel.middle, value=float(value))
         assert abs(value - pixel.middle[0]) <= pixel.radius[0] + mpmath.mpf(2) ** -190
         assert pixel.radius[0] <= 2.0**-53
 

@@ -61,13 +61,13 @@ PIXELS = st.integers(0, SIDE - 1)
     st.booleans(),
 )
 def test_no_ray_passes_a_shared_edge_or_corner_and_no_coplanar_neighbour_hides_a_light(
-    place: Place, x: float, y: float, column: int, line: int, light: Point, diagonals: int, perspective: bool
+    place: Place, x: float, y: float, column: int, row: int, light: Point, diagonals: int, perspective: bool
 ) -> None:
     camera = looking_down(place, x, y, perspective=perspective)
     pixel = exact_pixel(
-        scene(camera, [tiled_floor(place, diagonals)], {"grey": WHITE}, lights=[lamp(place(*light))]), column, line
+        scene(camera, [tiled_floor(place, diagonals)], {"grey": WHITE}, lights=[lamp(place(*light))]), column, row
     )
-    point = seen_point(x, y, column, line)
+    point = seen_point(x, y, column, row)
     note_case(place=place, point=point, light=light, diagonals=diagonals, perspective=perspective, pixel=pixel.middle)
     if max(abs(point[0]), abs(point[1])) > 2:
         assert pixel.middle == SKY
@@ -80,7 +80,7 @@ def test_no_ray_passes_a_shared_edge_or_corner_and_no_coplanar_neighbour_hides_a
     PLACES, FRACTIONS, FRACTIONS, PIXELS, PIXELS, st.sampled_from([0.5, 1.0, 1.5]), QUARTERS, QUARTERS, st.booleans()
 )
 def test_a_point_on_the_border_of_squares_belongs_to_that_of_larger_coordinate(
-    place: Place, x: float, y: float, column: int, line: int, size: float, u: float, v: float, perspective: bool
+    place: Place, x: float, y: float, column: int, row: int, size: float, u: float, v: float, perspective: bool
 ) -> None:
     across = [axis for axis in range(3) if place.axes[2][axis] == 0]
     board = {
@@ -92,8 +92,8 @@ def test_a_point_on_the_border_of_squares_belongs_to_that_of_larger_coordinate(
     }
     material = {"emission": {"radiance": {"checkerboard": board}}}
     camera = looking_down(place, x, y, perspective=perspective)
-    pixel = exact_pixel(scene(camera, [tiled_floor(place, 0)], {"grey": material}), column, line)
-    point = seen_point(x, y, column, line)
+    pixel = exact_pixel(scene(camera, [tiled_floor(place, 0)], {"grey": material}), column, row)
+    point = seen_point(x, y, column, row)
     assume(max(abs(point[0]), abs(point[1])) <= 2)
     note_case(place=place, point=point, board=board, pixel=pixel.middle)
     world = [Fraction(part) / Fraction(place.size) for part in place(*point)]
@@ -113,7 +113,7 @@ def test_a_point_on_the_border_of_squares_belongs_to_that_of_larger_coordinate(
     PIXELS,
 )
 def test_a_light_at_a_corner_on_an_edge_or_in_a_triangle_is_hidden_by_what_stands_before_it_alone(
-    place: Place, corners: list[Point], u: float, v: float, column: int, line: int
+    place: Place, corners: list[Point], u: float, v: float, column: int, row: int
 ) -> None:
     a, b, c, d = corners
     triangles = [(a, b, c), (b, a, d)]
@@ -125,8 +125,8 @@ def test_a_light_at_a_corner_on_an_edge_or_in_a_triangle_is_hidden_by_what_stand
     faces = [(0, 1, 2), (0, 2, 3), (4, 5, 6), (5, 4, 7)]
     mesh = {"shape": "mesh", "vertices": vertices, "faces": faces, "material": "grey"}
     camera = looking_down(place, 0.0, 0.0, height=0.5)  # under both triangles
-    pixel = exact_pixel(scene(camera, [mesh], {"grey": WHITE}, lights=[lamp(place(*light))]), column, line)
-    point = seen_point(0.0, 0.0, column, line)
+    pixel = exact_pixel(scene(camera, [mesh], {"grey": WHITE}, lights=[lamp(place(*light))]), column, row)
+    point = seen_point(0.0, 0.0, column, row)
     hidden = any(triangle_hides(triangle, point, light) for triangle in triangles)
     note_case(place=place, corners=corners, light=light, point=point, hidden=hidden, pixel=pixel.middle)
     assert holds_root(pixel, Fraction(0) if hidden else lit_square(point, light))
@@ -159,7 +159,7 @@ def test_a_ray_in_the_plane_of_a_triangle_misses_it(
     PIXELS,
 )
 def test_at_exactly_the_critical_angle_all_light_is_reflected(
-    place: Place, triple: tuple[int, int, int], outside: float, convention: str, column: int, line: int
+    place: Place, triple: tuple[int, int, int], outside: float, convention: str, column: int, row: int
 ) -> None:
     along, across, length = triple
     wide = 2.0**12
@@ -184,7 +184,7 @@ def test_at_exactly_the_critical_angle_all_light_is_reflected(
         "view_height": place.size,
         "inside": "glass",
     }
-    pixel = exact_pixel(scene(camera, objects, materials, convention=convention, max_depth=2), column, line)
+    pixel = exact_pixel(scene(camera, objects, materials, convention=convention, max_depth=2), column, row)
     note_case(place=place, triple=triple, outside=outside, convention=convention, pixel=pixel.middle)
     expected = SHINING["emission"]["radiance"]
     assert pixel.middle == expected

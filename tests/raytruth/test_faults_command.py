@@ -9,6 +9,7 @@ from raytruth.comparisons.faults.catalogue import all_faults
 from raytruth.comparisons.faults.variants import all_variants
 from raytruth.comparisons.kills import kill_run
 from raytruth.comparisons.kills.kill_matrix import KillCell, SceneKills
+from raytruth.scenes.library import open_scene
 from tests.raytruth.running import refusal, run
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ def keep(out: Path, *, survivor: str = "", flagged: str = "") -> None:
     """As if a run had judged one scene."""
     cells = [KillCell(name, 0.0 if name == survivor else 9.0) for name in all_faults()]
     cells += [KillCell(name, 9.0 if name == flagged else 0.0) for name in all_variants()]
-    kill_run._keep(out, "ambient-sphere", SceneKills("ambient-sphere", tuple(cells), 1.0))
+    kill_run._keep(out, open_scene("ambient-sphere"), SceneKills("ambient-sphere", tuple(cells), 1.0))
 
 
 def test_all_is_well_where_every_fault_is_killed_and_no_variant_flagged(

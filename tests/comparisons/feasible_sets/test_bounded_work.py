@@ -118,6 +118,7 @@ def test_a_pixel_that_takes_too_long_counts_as_merged_and_holds_the_truth(monkey
     whole = feasible_set(scene, FLOAT64)
     assert not whole.merged.any()
     monkeypatch.setattr(pixel_outcomes, "PLAIN_WORK", PANES_WORK["plain"] // 4)
+    monkeypatch.setattr(pixel_outcomes, "LINKED_WORK", PANES_WORK["linked"] // 4)
     for model in (FLOAT64, mitsuba_scalar().error_model):
         cut = feasible_set(scene, model)
         low, high = cut.hull()
@@ -139,6 +140,7 @@ def test_a_pixel_that_takes_too_long_without_a_bound_is_not_judged(monkeypatch: 
     assert radiance_bound(scene) is None
     assert (feasible_set(scene, FLOAT64).outcomes == 1).all()
     monkeypatch.setattr(pixel_outcomes, "PLAIN_WORK", 100)
+    monkeypatch.setattr(pixel_outcomes, "LINKED_WORK", 1000)
     assert (feasible_set(scene, FLOAT64).outcomes == 0).all()
 
 

@@ -213,7 +213,7 @@ def test_interpreted_floats_divide_by_zero_as_compiled_ones_do(dividend: float, 
     with np.errstate(all="ignore"):
         expected = quotient_of_quotients(np.float64(dividend), np.float64(divisor))
         single = np.float64(dividend) / np.float64(divisor)
-    kernel = make_kernel(FLOAT, set(Feature), {"snell_discriminant": quotient_of_quotients})
+    kernel = make_kernel(FLOAT, set(Feature), Behaviour({"snell_discriminant": quotient_of_quotients}))
     np.testing.assert_equal(kernel.snell_discriminant(dividend, divisor), float(expected))
     if divisor == 0.0:
         np.testing.assert_equal(over_zero(dividend, divisor), float(single))

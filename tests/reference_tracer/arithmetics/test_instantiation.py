@@ -204,7 +204,7 @@ def test_each_operation_is_rounded_once_and_nothing_else_is_changed() -> None:
 @pytest.mark.clause("ARI-3")
 def test_whole_numbers_are_not_rounded() -> None:
     text, _ = kernel_source(set(Feature), decided_comparisons=True, rounded_operations=True)
-    for operation in ("left - spheres", "spheres + triangle", "depth - 1", "column + line"):
+    for operation in ("left - spheres", "spheres + triangle", "depth - 1", "column + row"):
         assert f"rounded({operation})" in text
 
 
