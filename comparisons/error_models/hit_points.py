@@ -6,6 +6,7 @@ rounding does other things to them. The functions here are source of the tracer,
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import TYPE_CHECKING
 
 from flint import arb
@@ -35,8 +36,10 @@ interpolation_error_z: Scalar = 0.0
 weight_error_u: Scalar = 0.0
 """Of a weight by Möller and Trumbore's formulas, in units of all terms that it is summed from."""
 weight_error_v: Scalar = 0.0
-put_back_on_spheres: Scalar = 0.0
-"""1 where a point found along the ray is then put back on its sphere, else 0."""
+put_back_error_x: Scalar = 0.0
+"""Of a coordinate of a point that is put back on its sphere, in units of the lengths that it is computed from."""
+put_back_error_y: Scalar = 0.0
+put_back_error_z: Scalar = 0.0
 
 # (1 - u - v)·a + u·b + v·c, for weights between 0 and 1: the first weight is off by two roundoffs at most, a coordinate
 # of a by as much of it; each product and each of two sums rounds once, the weights' sum being 1: in all 2 + 3.
@@ -59,12 +62,13 @@ def hit_point_behaviour(error_model: ErrorModel) -> Behaviour:
     if error_model.sphere_points == "normalised":
         functions["sphere_normal"] = normalised_sphere_normal
     roundoff = 2.0**-error_model.precision_bits
+    put_back = roundoff if error_model.sphere_points == "put back" else 0.0
     constants = {
         **{f"interpolation_error_{axis}": arb(0, INTERPOLATION_ROUNDOFFS * roundoff) for axis in "xyz"},
         **{f"weight_error_{weight}": arb(0, WEIGHT_ROUNDOFFS * roundoff) for weight in "uv"},
-        "put_back_on_spheres": arb(1 if error_model.sphere_points == "put back" else 0),
+        **{f"put_back_error_{axis}": arb(0, put_back) for axis in "xyz"},
     }
-    return Behaviour(functions, (as_interpolated,), constants, "hit points")
+    return Behaviour(functions, (as_interpolated, as_put_back), constants, "hit points")
 
 
 def as_interpolated(point: Vector, a: Vector, b: Vector, c: Vector) -> Vector:
@@ -72,6 +76,21 @@ def as_interpolated(point: Vector, a: Vector, b: Vector, c: Vector) -> Vector:
     x = point[0] + largest_magnitude(a[0], b[0], c[0]) * interpolation_error_x
     y = point[1] + largest_magnitude(a[1], b[1], c[1]) * interpolation_error_y
     return (x, y, point[2] + largest_magnitude(a[2], b[2], c[2]) * interpolation_error_z)
+
+
+def as_put_back(scene: SceneData, point: Vector, distance: Scalar, sphere: int) -> Vector:
+    """A point of a sphere, where it lies on a ray of unit direction, off by what remains when it is put back.
+
+    What rounding does to the root moves a point along its ray (e, D, h and L in sphere_tests.py). To put it back along
+    its normal n leaves of e + D/(2·h) + 3·u·r what is along n, at most the h/r-th of it, which is within e + D/(2·r) +
+    3·u·r; and at a tangent, of its square over 2·r, D/(2·r): together 3·e + 8·u·r, to any side. The point before was
+    rounded, by e at most; n is off by 5·u, times r by one more; the sum with the centre is rounded. So all is within
+    4·e + 15·u·r + u·|c| = u·(4·L + 5·|c| + 23·r), where L is within the distance and r.
+    """
+    center = vector_of(scene, SPHERE_CENTER, sphere)
+    lengths = 4.0 * distance + 5.0 * sqrt(dot(center, center)) + 27.0 * number_of(scene, SPHERE_RADIUS, sphere)
+    x, y, z = point
+    return (x + lengths * put_back_error_x, y + lengths * put_back_error_y, z + lengths * put_back_error_z)
 
 
 def hit_point_by_pluecker(
@@ -109,11 +128,7 @@ def hit_point_by_moeller_trumbore(
     """
     triangle = triangle_of(scene, primitive)
     if triangle < 0:
-        point = along(origin, direction, distance)
-        if put_back_on_spheres > 0.0:
-            center = vector_of(scene, SPHERE_CENTER, primitive)
-            return along(center, normalize(subtract(point, center)), number_of(scene, SPHERE_RADIUS, primitive))
-        return point
+        return as_put_back(scene, along(origin, direction, distance), distance, primitive)
     a, b, c = corners_of(scene, triangle)
     first_edge, second_edge = subtract(a, b), subtract(c, a)
     area = dot(cross_terms(first_edge, second_edge), magnitudes(direction))

@@ -18,6 +18,7 @@ from raytruth.comparisons.error_models.helpers import largest_magnitude
 from raytruth.comparisons.error_models.ray_offsets import comes_back, offset_length
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, Behaviour
 from raytruth.reference_tracer.source.bounding_volume import certainly_less
+from raytruth.reference_tracer.source.compensated import sphere_constant
 from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_RADIUS, number_of, rows_of, vector_of
 from raytruth.reference_tracer.source.sphere import distance_to_other_side, sphere_distance
 from raytruth.reference_tracer.source.traversal import NOTHING
@@ -30,6 +31,12 @@ if TYPE_CHECKING:
     from raytruth.reference_tracer.source.scene_data import SceneData
     from raytruth.scenes.scene import Scene
 
+roundoff: Scalar = 0.0
+"""The largest relative error of one operation."""
+chord_error: Scalar = 0.0
+"""Between -1 and 1: how far the squared half chord is off, of the most that it may be."""
+root_error: Scalar = 0.0
+"""The same of a root besides; apart, since nothing is known of how both go together."""
 surface_slack: Scalar = 0.0
 """Of a radius and a largest coordinate: no offset above it is lost to what rounding does to either formula."""
 put_back_slack: Scalar = 0.0
@@ -39,12 +46,15 @@ reach_slack: Scalar = 0.0
 moves_starts: Scalar = 0.0
 """1 where rays start beside the sphere that they leave, 0 where on it, and it is known by its number."""
 
-# A ray that starts δ above a sphere of radius r surely does not meet it again if δ is above what rounding may shift the
-# roots by. With u the roundoff and m the largest coordinate of its start: the foot, and the vector from the centre to
-# it, are off by e = u·(1.8·m + 3.8·r), its square less r² by D = 5·u·r² + 2·r·e; the roots move by e + D/(2·h) + 3·u·r,
-# where h is half the chord. Far from a tangent the farther root lies δ·r/h behind the start, so that
-# δ > D/r + 2·e + 6·u·r = u·(26.2·r + 7.2·m) suffices; at a tangent 2·r·δ > D does. The textbook's constant |o-c|² - r²
-# is off by less than D. And the start may be beside where it should be, by what is counted next.
+# What rounding does to a test from the foot, u being the roundoff, for a ray that comes within the radius r of the
+# centre c: the product of direction and way to the foot, of length L, the foot's coordinates, which are within |c| +
+# r, and the vector from the centre, which is within r, are each rounded once: by e = u·(L + |c| + 2·r) together. Its
+# square less r² is off by D = 5·u·r² + 2·r·e + e²; the roots move by e + D/(2·h) + 3·u·r, where h is half the chord.
+# A ray that starts δ above a sphere surely does not meet it again if δ is above that. Then L is within r, and with m
+# the largest coordinate of its start, e is within u·(1.8·m + 3.8·r). Far from a tangent the farther root lies δ·r/h
+# behind the start, so that δ > D/r + 2·e + 6·u·r = u·(26.2·r + 7.2·m) suffices; at a tangent 2·r·δ > D does. The
+# textbook's constant |o-c|² - r² is off by less than D. And the start may be beside where it should be, as is counted
+# next.
 SURFACE_ROUNDOFFS = 36
 # A point that was put back on the sphere: its unit normal is off by 5·u (its square by 3, the root and the product),
 # times r by one more, and the sums with the centre and with the offset round m: u·(6·r + 2·√3·m).
@@ -72,6 +82,9 @@ def sphere_test_behaviour(error_model: ErrorModel, scene: Scene) -> Behaviour:
         },
         (only_other_side_remains, distance_from_foot, nonnegative_root),
         {
+            "roundoff": arb(roundoff),
+            "chord_error": arb(0, 1),
+            "root_error": arb(0, 1),
             "surface_slack": arb(SURFACE_ROUNDOFFS * roundoff),
             "put_back_slack": arb(PUT_BACK_ROUNDOFFS * roundoff),
             "reach_slack": arb(along_rays * roundoff),
@@ -130,26 +143,36 @@ def nearest_sphere_from_foot(scene: SceneData, origin: Vector, direction: Vector
 def distance_from_foot(origin: Vector, direction: Vector, center: Vector, radius: Scalar) -> Scalar:
     """The ray is moved to its foot, where it is nearest to the centre, and meets the sphere from there.
 
-    The foot's own error is none of the roots', since they are counted from where it came to lie. Of the two ways to
-    a root, -B/2 ± √D and one by their product, this is the one that rounding shifts more.
+    In exact arithmetic that is sphere_distance. So its steps are taken, with what rounding does to the others: the
+    squared half chord is off by D, both roots by e and three roundoffs of the radius besides.
     """
+    to_origin = subtract(origin, center)
     direction_squared = dot(direction, direction)
-    foot = -dot(subtract(origin, center), direction) / direction_squared
-    start = subtract(along(origin, direction, foot), center)
-    constant = dot(start, start) - radius * radius
-    return nonnegative_root(foot, dot(start, direction), constant, direction_squared)
+    length = sqrt(direction_squared)
+    radius_squared = radius * radius
+    half_linear = dot(direction, to_origin)
+    foot = -half_linear / direction_squared
+    shift = roundoff * (abs(half_linear) / length + sqrt(dot(center, center)) + 2.0 * radius)  # e
+    lost = chord_error * (5.0 * roundoff * radius_squared + (2.0 * radius + shift) * shift) / direction_squared
+    moved = root_error * (shift + 3.0 * roundoff * radius) / length
+    constant = dot(to_origin, to_origin) - radius_squared
+    if certainly_less(radius_squared, constant):
+        closest = along(to_origin, direction, foot)
+        half_chord_squared = (radius_squared - dot(closest, closest)) / direction_squared
+    else:
+        half_chord_squared = foot * foot - sphere_constant(origin, center, radius) / direction_squared
+    return nonnegative_root(foot + moved, half_chord_squared + lost)
 
 
-def nonnegative_root(start: Scalar, half_linear: Scalar, constant: Scalar, direction_squared: Scalar) -> Scalar:
-    """The least start + t that is not negative and solves a·t² + 2·b·t + c = 0, or infinity; a is above 0."""
-    discriminant = half_linear * half_linear - direction_squared * constant
-    if discriminant < 0.0:
+def nonnegative_root(foot: Scalar, half_chord_squared: Scalar) -> Scalar:
+    """The nearer of both roots that is not negative, or infinity."""
+    if half_chord_squared < 0.0:
         return inf
-    half_chord = sqrt(discriminant)
-    nearer = start - (half_linear + half_chord) / direction_squared
+    half_chord = sqrt(half_chord_squared)
+    nearer = foot - half_chord
     if nearer >= 0.0:
         return nearer
-    farther = start + (half_chord - half_linear) / direction_squared
+    farther = foot + half_chord
     if farther >= 0.0:
         return farther
     return inf
@@ -178,5 +201,7 @@ def distance_to_sphere_by_textbook(
     if sphere == left and only_other_side_remains(origin, direction, center, radius, surface_slack, reach_slack):
         return distance_to_other_side(origin, direction, center)
     from_center = subtract(origin, center)
+    direction_squared = dot(direction, direction)
+    foot = -dot(from_center, direction) / direction_squared
     constant = dot(from_center, from_center) - radius * radius
-    return nonnegative_root(0.0, dot(from_center, direction), constant, dot(direction, direction))
+    return nonnegative_root(foot, foot * foot - constant / direction_squared)
