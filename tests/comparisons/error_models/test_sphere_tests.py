@@ -12,13 +12,14 @@ from flint import arb
 
 from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
 from raytruth.comparisons.error_models.helpers import HELPERS
+from raytruth.comparisons.error_models.hit_points import hit_point_behaviour
 from raytruth.comparisons.error_models.ray_offsets import offset_behaviour
 from raytruth.comparisons.error_models.shortcuts import without_shortcuts
 from raytruth.comparisons.error_models.sphere_tests import sphere_test_behaviour
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic
 from raytruth.reference_tracer.arithmetics.behaviour import merged
-from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_RADIUS
+from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_MATERIAL, SPHERE_RADIUS
 from raytruth.reference_tracer.source.sphere import sphere_distance
 from raytruth.scenes.features import Feature
 from tests.comparisons.deciding_scenes import ball_as_ground, ball_from_afar
@@ -35,6 +36,7 @@ pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER
 OFFSET = RayOffset(1500 * 2.0**-24, 1500 * 2.0**-24)
 FROM_FOOT = ErrorModel("", 24, OFFSET, sphere_test="from the foot")
 IN_DOUBLE = replace(FROM_FOOT, sphere_test="from the foot, accurate for shadows")
+PUT_BACK = replace(IN_DOUBLE, sphere_points="put back", triangle_test="moeller-trumbore", triangle_points="barycentric")
 Case = tuple[Any, Any, Any, float]
 
 
@@ -50,7 +52,7 @@ def kernel_of(model: ErrorModel, scene: Scene) -> tuple[Any, Decisions]:
 
 
 def behaviour_of(model: ErrorModel, scene: Scene) -> Behaviour:
-    return merged(HELPERS, offset_behaviour(model), sphere_test_behaviour(model, scene))
+    return merged(HELPERS, offset_behaviour(model), sphere_test_behaviour(model, scene), hit_point_behaviour(model))
 
 
 def cases() -> list[Case]:
@@ -110,6 +112,32 @@ def test_the_enclosures_hold_what_mitsuba_computes(kind: Any) -> None:
     assert hits > 100
 
 
+def test_the_enclosures_hold_the_points_that_mitsuba_puts_back() -> None:
+    kernel, decisions = kernel_of(PUT_BACK, ball_from_afar())
+    ratios = []
+    for origin, direction, center, radius in cases():
+        distance = mitsubas_distance(origin, direction, center, radius, np.float64)
+        if not math.isfinite(distance):
+            continue
+        from_center = origin + np.float32(distance) * direction - center
+        if not from_center.any():  # rounding has made the point the centre, which lies in no direction from itself
+            continue
+        point = from_center / np.sqrt(dot(from_center, from_center)) * np.float32(radius) + center
+        balls = [tuple(arb(float(number)) for number in vector) for vector in (origin, direction, center)]
+        data = scene_data({SPHERE_CENTER: [balls[2]], SPHERE_RADIUS: [arb(float(radius))], SPHERE_MATERIAL: [0]})
+
+        def hit(data: Any = data, balls: Any = balls) -> Any:
+            return kernel.hit_point(data, *balls[:2], kernel.nearest_sphere(data, *balls[:2], -1)[0], 0)
+
+        points = [found for found in every_outcome(hit, decisions, 8) if all(ball.is_finite() for ball in found)]
+        fits = [all(b.contains(arb(float(x))) for b, x in zip(found, point, strict=True)) for found in points]
+        assert any(fits), [[number.hex() for number in map(float, vector)] for vector in (origin, direction, center)]
+        lengths = distance + np.abs(center).max() + radius
+        ratios.append(max(float(ball.rad()) for ball in points[fits.index(True)]) / (lengths * 2.0**-24))
+    assert len(ratios) > 100
+    assert np.median(ratios) < 64  # of some twenty roundings, and what plain balls count twice
+
+
 @pytest.mark.parametrize("model", [FROM_FOOT, IN_DOUBLE])
 def test_it_is_the_truths_in_float64(model: ErrorModel) -> None:
     behaviour = behaviour_of(model, ball_from_afar()).with_numbers(lambda ball: float(ball.mid()))
@@ -139,10 +167,7 @@ def test_a_sphere_shadows_itself_where_the_offset_is_lost_to_rounding(
 
 @pytest.mark.parametrize(("radius", "may_meet_itself"), [(1.0, {False}), (1e3, {True, False})])
 def test_a_ray_may_come_back_to_a_sphere_that_is_large_beside_its_start(radius: float, may_meet_itself: Any) -> None:
-    model = replace(
-        IN_DOUBLE, sphere_points="put back", triangle_test="moeller-trumbore", triangle_points="barycentric"
-    )
-    kernel, decisions = kernel_of(model, ball_from_afar())
+    kernel, decisions = kernel_of(PUT_BACK, ball_from_afar())
     data = scene_data({SPHERE_CENTER: [(arb(0), arb(-radius), arb(0))], SPHERE_RADIUS: [arb(radius)]})
     origin, up = (arb(0), arb(1e-5, 2e-5), arb(0)), (arb(0), arb(1), arb(0))
     outcomes = [
