@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.comparisons.records.results import Verdict
+from raytruth.reports.confirmation import JUDGED, families, left_open_by
 from raytruth.reports.loading import ReportError, read_colours, read_evidence
 from raytruth.reports.wording import listed, number, plural
 
@@ -24,8 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from raytruth.comparisons.records.results import Cell, Results
-
-JUDGED = {Verdict.PASS, Verdict.DECLARED, Verdict.FAIL}
+    from raytruth.reports.confirmation import Pixel
 
 
 @dataclass(frozen=True)
@@ -48,41 +48,6 @@ class Agreement:
     pairs: dict[tuple[int, int], Comparison | None]
     """How two references agree, by their places in `names`, the smaller first; None where one has no image."""
     sentences: tuple[str, ...]
-
-
-def families(results: Results) -> dict[str, str]:
-    """The project of each renderer that is independent of the truth, by the renderer's name."""
-    return {record.name: record.family for record in results.renderers if record.family is not None}
-
-
-def confirming(results: Results) -> dict[str, tuple[str, ...]]:
-    """For each scene the projects that confirm its truth: a cell passes and none fails; in alphabetical order.
-
-    What is as declared, not as due, confirms nothing.
-    """
-    known = families(results)
-    verdicts: dict[str, dict[str, set[Verdict]]] = {scene.name: {} for scene in results.scenes}
-    for cell in results.cells:
-        if cell.verdict in JUDGED and cell.renderer in known:
-            verdicts[cell.scene].setdefault(known[cell.renderer], set()).add(cell.verdict)
-    return {
-        scene: tuple(sorted(name for name, found in of.items() if Verdict.PASS in found and Verdict.FAIL not in found))
-        for scene, of in verdicts.items()
-    }
-
-
-def in_one_line(results: Results) -> str | None:
-    """How well the truth is confirmed, and who is wrong; None where no reference was judged."""
-    known = families(results)
-    judged = [cell for cell in results.cells if cell.verdict in JUDGED and cell.renderer in known]
-    if not judged:
-        return None
-    by_scene = confirming(results)
-    confirmed = sum(len(names) > 1 for names in by_scene.values())
-    scenes = f"{confirmed} of {len(by_scene)} {plural('scene', len(by_scene))}"
-    line = f"Independent references: {scenes} confirmed by two or more"
-    wrong = [f"{cell.renderer} is wrong on {cell.scene}" for cell in judged if cell.verdict == Verdict.FAIL]
-    return f"{'; '.join([line, *dict.fromkeys(wrong)])}."
 
 
 def agreement_on(directory: Path, results: Results, scene: str) -> Agreement | None:
@@ -159,24 +124,32 @@ def _with_truth(cell: Cell) -> Comparison:
 
 def _confirmation(cells: list[Cell], known: Mapping[str, str]) -> str:
     """How many opinions there are, and how many agree with the truth."""
-    wrong = {known[cell.renderer] for cell in cells if cell.verdict == Verdict.FAIL}
-    right = {known[cell.renderer] for cell in cells if cell.verdict == Verdict.PASS} - wrong
-    opinions = {known[cell.renderer] for cell in cells}
-    seen = {known[cell.renderer] for cell in cells if cell.images is not None and cell.verdict != Verdict.DECLARED}
+    by_project: dict[str, list[Cell]] = {}
+    for cell in cells:
+        by_project.setdefault(known[cell.renderer], []).append(cell)
+    right = {name: left for name in sorted(by_project) if (left := left_open_by(by_project[name])) is not None}
     if not right:
         return "No independent reference agrees with the truth here."
-    names = listed([name if name in seen else f"{name} (first hits only)" for name in sorted(right)])
-    if len(opinions) == 1:
+    names = listed([_with_limits(name, left, by_project[name]) for name, left in right.items()])
+    if len(by_project) == 1:
         return f"One independent reference agrees with the truth: {names}."
     everyone = "Both" if len(right) == 2 else f"All {len(right)}"
-    count = everyone if right == opinions else f"{len(right)} of {len(opinions)}"
+    count = everyone if len(right) == len(by_project) else f"{len(right)} of {len(by_project)}"
     return f"{count} independent references {'agree' if len(right) > 1 else 'agrees'} with the truth: {names}."
+
+
+def _with_limits(project: str, left_open: frozenset[Pixel], cells: Iterable[Cell]) -> str:
+    """A project's name, and how far its agreement goes."""
+    if left_open:
+        return f"{project} (but for {len(left_open)} {plural('pixel', len(left_open))})"
+    seen = any(cell.images is not None and cell.verdict == Verdict.PASS for cell in cells)
+    return project if seen else f"{project} (first hits only)"
 
 
 def _declared(cells: list[Cell]) -> list[str]:
     """A sentence for each reference that is as declared, not as due."""
     return [
-        f"{_name(cell)} is as declared, not as due, and confirms nothing there: {cell.reason}."
+        f"{_name(cell)} is as declared, not as due, and confirms nothing at those pixels: {cell.reason}."
         for cell in cells
         if cell.verdict == Verdict.DECLARED
     ]

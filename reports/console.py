@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from raytruth.comparisons.records.results import Verdict
-from raytruth.reports.agreement import in_one_line
+from raytruth.reports.confirmation import in_one_line
 from raytruth.reports.wording import (
     WAIVED,
     WORDINGS,

@@ -18,7 +18,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.reports import pictures, wording
-from raytruth.reports.agreement import Agreement, agreement_on, in_one_line
+from raytruth.reports.agreement import Agreement, agreement_on
+from raytruth.reports.confirmation import in_one_line
 from raytruth.reports.figures import Album, Figure, SharedPicture, cell_figures, data_uri
 from raytruth.reports.kills import PAGE_FILE
 from raytruth.reports.loading import ReportError, load_results, read_log

@@ -16,10 +16,12 @@ from raytruth.comparisons.judgement.first_hit_test import judge_first_hits, verd
 from raytruth.comparisons.judgement.pixel_verdict import together, with_shortcuts
 from raytruth.comparisons.judgement.verdict import judge_exact, judge_light_paths, judge_noisy, of_pixel_areas
 from raytruth.comparisons.matrix.whole_cells import CELL_FILE, files_digest
+from raytruth.comparisons.noise.pixel_areas import largest_displacement
 from raytruth.comparisons.records.image_files import write_image
 from raytruth.comparisons.records.pixel_evidence import write_pixel_evidence
 from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.records.results import Cell, Images, Verdict
+from raytruth.comparisons.renderers.protocol import error_model_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -84,6 +86,9 @@ def settled_cell(place: CellPlace, verdict: Verdict, reason: str) -> Cell:
 
 
 def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path) -> Cell:
+    displaced = _displaced(place)
+    if displaced is not None:
+        return Cell(**_circumstances(place, folder), verdict=Verdict.INCOMPARABLE, reason=displaced)
     try:
         rendering = place.renderer.render(place.scene, place.integrator.name, depth, expectation.rays, folder)
         _check_sizes(rendering, place.integrator.gives, expectation.truth)
@@ -117,6 +122,20 @@ def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path
         judgement=judged.judgement,
         stochastic=judged.test,
         images=_written(rendering, judged, truth, place, folder),
+    )
+
+
+def _displaced(place: CellPlace) -> str | None:
+    """Why means over pixels are not known well enough for this renderer's ray offset; None if they are."""
+    error_model = error_model_of(place.renderer, place.version)
+    if place.integrator.follows != "light paths" or error_model is None:
+        return None
+    displacement = largest_displacement(place.scene, error_model.ray_offset)
+    if displacement <= 1.0:
+        return None
+    return (
+        f"rays start beside the surface, up to {displacement:.3g} times as far as the bounds on a pixel's mean allow: "
+        "its ray offset is not small in this scene"
     )
 
 

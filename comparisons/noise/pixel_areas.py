@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from math import isqrt
+from math import isqrt, radians, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.reference_tracer.rendering import render
+from raytruth.reference_tracer.rendering import first_hits, prepare, primary_rays, render
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from raytruth.comparisons.error_models.error_model import RayOffset
     from raytruth.scenes.scene import Scene
 
     Array = NDArray[np.float64]
@@ -31,16 +32,36 @@ def area_means(scene: Scene) -> tuple[Array, Array]:
     a renderer whose image is displaced by as much, as where rays start off a surface. It assumes that nothing is
     smaller than a cell.
     """
-    pixels = scene.camera.width * scene.camera.height
-    grid = max(FEWEST_POINTS_A_SIDE, isqrt(POINTS // pixels))
+    grid = _points_a_side(scene)
     points = render(enlarged(scene, grid))
     low, high = (_pixel_means(_over_neighbours(points, choose), grid) for choose in (np.minimum, np.maximum))
     return low, high
 
 
+def largest_displacement(scene: Scene, offset: RayOffset) -> float:
+    """How far beside a surface that is seen rays start at most, in half widths of a point's cell there; 0 for none.
+
+    Above 1 the bounds of `area_means` do not hold for who starts rays so. For a perspective camera.
+    """
+    camera = scene.camera
+    assert camera.projection == "perspective", "other cameras see no light that is traced forward"
+    distances, primitives = first_hits(prepare(scene))
+    seen = primitives >= 0
+    origins, directions = (rays[seen] for rays in primary_rays(scene))
+    points = origins + distances[seen][:, np.newaxis] * directions
+    starts = offset.absolute + offset.relative * np.abs(points).max(axis=1, initial=0.0)
+    cell = 2 * tan(radians(camera.vertical_field_of_view) / 2) / (camera.height * _points_a_side(scene))
+    return float((starts / (distances[seen] * cell / 2)).max(initial=0.0))
+
+
 def enlarged(scene: Scene, factor: int) -> Scene:
     """The same view with `factor` times as many pixels along each side."""
     return scene.resized(scene.camera.width * factor, scene.camera.height * factor)
+
+
+def _points_a_side(scene: Scene) -> int:
+    """Of each pixel."""
+    return max(FEWEST_POINTS_A_SIDE, isqrt(POINTS // (scene.camera.width * scene.camera.height)))
 
 
 def _over_neighbours(points: Array, choose: np.ufunc) -> Array:

@@ -1,14 +1,16 @@
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
+from raytruth.comparisons.error_models.error_model import RayOffset
 from raytruth.comparisons.noise import pixel_areas
-from raytruth.comparisons.noise.pixel_areas import area_means, enlarged
+from raytruth.comparisons.noise.pixel_areas import area_means, enlarged, largest_displacement
 from raytruth.reference_tracer.rendering import primary_rays, render
-from tests.reference_tracer.small_scenes import library_scene, small_scene, square
+from tests.reference_tracer.small_scenes import library_scene, small_scene, sphere, square
 
 if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
@@ -58,3 +60,23 @@ def test_an_enlarged_scene_is_the_same_view() -> None:
     assert (large.camera.width, large.camera.height) == (12, 9)
     # With an odd factor the middle one of the rays through a pixel is the one through its centre.
     np.testing.assert_allclose(primary_rays(large)[1][1::3, 1::3], primary_rays(scene)[1], atol=1e-15)
+
+
+@pytest.mark.parametrize("size", [1e-4, 1e-2, 1.0, 1e4])
+def test_an_offset_is_counted_in_half_cells_of_what_is_seen(size: float) -> None:
+    scene = small_scene(
+        projection="perspective",
+        width=9,
+        height=9,
+        extent=20.0,
+        camera={"position": (0.0, 0.0, 4 * size)},
+        materials={"lamp": LAMP},
+        objects=[sphere("lamp", radius=size)],
+    )
+    points_a_side = math.isqrt(pixel_areas.POINTS // 81)
+    half_cell = 3 * size * math.tan(math.radians(10.0)) / (9 * points_a_side)
+    absolute = largest_displacement(scene, RayOffset(absolute=half_cell))
+    assert absolute == pytest.approx(1.0)  # at the nearest point, which the middle pixel sees
+    assert largest_displacement(scene, RayOffset(relative=half_cell / size)) == pytest.approx(absolute)
+    assert largest_displacement(scene, RayOffset(absolute=10 * half_cell)) == pytest.approx(10 * absolute)
+    assert largest_displacement(scene, RayOffset()) == 0.0
