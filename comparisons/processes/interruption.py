@@ -27,13 +27,22 @@ _busy = threading.Event()
 
 @contextmanager
 def interruption_held_back() -> Iterator[None]:
-    """Hold an interruption back while processes are started: they would tell of it before they are set up."""
+    """Hold an interruption back while processes are started: they would tell of it before they are set up.
+
+    They inherit that it is blocked. In this process it may still reach another thread, so that its handler holds it
+    back as well. To be called from the main thread.
+    """
     resource_tracker.ensure_running()  # it would lift the block when it starts by itself
+    heard = threading.Event()
+    before = signal.signal(signal.SIGINT, lambda *_: heard.set())
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+        signal.signal(signal.SIGINT, before)
+        if heard.is_set():
+            signal.raise_signal(signal.SIGINT)
 
 
 def start_worker() -> None:

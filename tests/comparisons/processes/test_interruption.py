@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
+import time
 
 import pytest
 
@@ -17,6 +19,22 @@ def test_an_interruption_while_processes_start_is_heard_of_afterwards() -> None:
     with pytest.raises(KeyboardInterrupt), interruption_held_back():  # noqa: PT012 - the end of the block raises it
         os.kill(os.getpid(), signal.SIGINT)
         reached = True
+    assert reached
+
+
+def test_an_interruption_that_reaches_another_thread_is_held_back_as_well() -> None:
+    ended = threading.Event()
+    thread = threading.Thread(target=ended.wait)
+    thread.start()
+    reached = False
+    try:
+        with pytest.raises(KeyboardInterrupt), interruption_held_back():  # noqa: PT012 - as above
+            os.kill(os.getpid(), signal.SIGINT)  # blocked in this thread, but not in that one
+            time.sleep(0.01)
+            reached = True
+    finally:
+        ended.set()
+        thread.join()
     assert reached
 
 
