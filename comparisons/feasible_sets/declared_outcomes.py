@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -38,18 +38,31 @@ def all_due(color: Colors | None) -> Outcomes:
 
 
 def may_look_different(color: Colors, pixel: Pixel, truth: CertifiedImage | None) -> bool:
-    """Whether some declared outcome may visibly differ from the truth, or none of them holds it.
-
-    True where the truth is not known, or a tie.
-    """
+    """Whether some declared outcome may visibly differ from the truth; true where that is not known, or a tie."""
     column, row = pixel
     if truth is None or not truth.decided[row, column]:
         return True
-    middle, radius = truth.middle[row, column], truth.radius[row, column]
     ends = np.array([bounds_of(box) for box in color.boxes])  # shape (outcomes, 3, 2)
-    low, high = ends[..., 0], ends[..., 1]
-    holds_truth = ((low <= middle - radius) & (middle + radius <= high)).all(axis=1).any()
-    return not holds_truth or bool(differs_visibly(ends, middle[np.newaxis, :, np.newaxis]).any())
+    return bool(differs_visibly(ends, truth.middle[row, column][np.newaxis, :, np.newaxis]).any())
+
+
+def with_truth(outcomes: Outcomes, pixel: Pixel, truth: CertifiedImage | None) -> Outcomes:
+    """The outcomes of a pixel, of which one that is due holds its proven value, if that is known.
+
+    A renderer that rounds an index of refraction when it stores it computes for another one than the truth does. So its
+    outcomes may all lie beside the truth: then the nearest is widened up to there, or the truth is one more outcome
+    where one could see the difference.
+    """
+    proof = proven(pixel, truth).boxes
+    due = [place for place, is_due in enumerate(outcomes.due) if is_due]
+    if not proof or not due or any(_is_in(proof[0], outcomes.boxes[place]) for place in due):
+        return outcomes
+    hulls = {place: _hull(outcomes.boxes[place], proof[0]) for place in due}
+    nearest = min(due, key=lambda place: max(high - low for low, high in hulls[place]))
+    if differs_visibly(outcomes.boxes[nearest], proof[0]).any():
+        return replace(outcomes, boxes=[*outcomes.boxes, *proof], due=[*outcomes.due, True])
+    boxes = [hulls[place] if place == nearest else box for place, box in enumerate(outcomes.boxes)]
+    return replace(outcomes, boxes=boxes)
 
 
 def proven(pixel: Pixel, truth: CertifiedImage | None) -> Outcomes:
@@ -60,9 +73,8 @@ def proven(pixel: Pixel, truth: CertifiedImage | None) -> Outcomes:
     column, row = pixel
     if truth is None or not truth.decided[row, column]:
         return Outcomes([], [], merged=False)
-    middle, radius = truth.middle[row, column], truth.radius[row, column]
-    low, high = middle - radius, middle + radius
-    return Outcomes([list(zip(low.tolist(), high.tolist(), strict=True))], [True], merged=False)
+    middle, radius = truth.middle[row, column].tolist(), truth.radius[row, column].tolist()
+    return Outcomes([list(map(_widened, middle, radius))], [True], merged=False)
 
 
 def beside_what_is_due(declared: Outcomes, due: Outcomes) -> Outcomes:
@@ -84,12 +96,16 @@ def hits_beside_what_is_due(declared: list[FirstHit] | None, due: list[FirstHit]
 
 def bounds_of(balls: Iterable[Any]) -> Bounds:
     """The ends of each ball, below and above, widened by what float64 rounds."""
-    bounds = []
-    for ball in balls:
-        middle, radius = float(ball.mid()), float(ball.rad())
-        widened = radius + (abs(middle) + radius) * 2.0**-52
-        bounds.append((middle - widened, middle + widened))
-    return bounds
+    return [_widened(float(ball.mid()), float(ball.rad())) for ball in balls]
+
+
+def _widened(middle: float, radius: float) -> tuple[float, float]:
+    radius += (abs(middle) + radius) * 2.0**-52
+    return middle - radius, middle + radius
+
+
+def _hull(box: Bounds, other: Bounds) -> Bounds:
+    return [(min(a, low), max(b, high)) for (a, b), (low, high) in zip(box, other, strict=True)]
 
 
 def _is_in(box: Bounds, other: Bounds) -> bool:

@@ -24,6 +24,7 @@ from raytruth.comparisons.feasible_sets.declared_outcomes import (
     hits_beside_what_is_due,
     may_look_different,
     proven,
+    with_truth,
 )
 from raytruth.comparisons.feasible_sets.pixel_outcomes import PixelOutcomes, brightest_of
 from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
@@ -102,9 +103,9 @@ def feasible_set(
     """The feasible sets of all pixels of a scene; `behaviour` is what the renderer does besides its error model.
 
     They hold what the declared model may give, and what its arithmetic alone may give without the shortcuts that it
-    declares: that is due, and holds the truth. With `truth`, the scene's certified image, the latter is found only
-    where a declared outcome may look different from the truth or none holds it, which is much quicker. Elsewhere all
-    that is declared counts as due.
+    declares: that is due. With `truth`, the scene's certified image, they hold the truth, and what is due is found only
+    where a declared outcome may look different from the truth, which is much quicker. Elsewhere all that is declared
+    counts as due.
     Without colours only the feasible sets of first hits are made, and no pixel has an outcome.
     Raises ValueError for a behaviour that changes what the error model changes, too.
     """
@@ -122,6 +123,7 @@ def feasible_set(
         if error_model.ray_offset.minimum_distance > 0.0:  # the one shortcut that camera rays take
             _, due_hits = ideal.colors_and_hits(pixels, with_colors=False)
             first_hits = [hits_beside_what_is_due(*both) for both in zip(hits, due_hits, strict=True)]
+    outcomes = [with_truth(of_pixel, pixel, truth) for of_pixel, pixel in zip(outcomes, pixels, strict=True)]
     return _as_arrays(scene, error_model, outcomes, first_hits)
 
 

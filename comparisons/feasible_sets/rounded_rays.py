@@ -149,11 +149,7 @@ def _exact_camera(scene: Scene, error_model: ErrorModel) -> PreparedScene | None
 
 
 def store_indices(prepared: PreparedScene, bits: int | None) -> None:
-    """Put into the tables what a renderer with so few bits may take for an index of refraction; None: as all numbers.
-
-    That is anything from the index to what it is rounded to: so the feasible sets hold the truth, too, whose index is
-    not rounded.
-    """
+    """Round the indices of refraction in the tables, as a renderer with so few bits does; None: as all numbers."""
     if bits is None:
         return
     linked = prepared.arithmetic.functions.get("ball")
@@ -162,9 +158,8 @@ def store_indices(prepared: PreparedScene, bits: int | None) -> None:
         first = prepared.data.integers[table]
         for place in range(first, first + rows_of(prepared.data, table)):
             mantissa, exponent = math.frexp(exact[place])
-            rounded = math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits)
-            both = arb(exact[place]).union(arb(rounded))
-            prepared.data.numbers[place] = linked(both) if linked else both
+            rounded = arb(math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits))
+            prepared.data.numbers[place] = linked(rounded) if linked else rounded
 
 
 class RememberedHit:

@@ -14,10 +14,11 @@ from hypothesis import strategies as st
 from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.comparisons.error_models.shortcuts import without_shortcuts
-from raytruth.comparisons.feasible_sets.declared_outcomes import Outcomes, beside_what_is_due
+from raytruth.comparisons.feasible_sets.declared_outcomes import Outcomes, beside_what_is_due, with_truth
 from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet, feasible_set
 from raytruth.comparisons.measures.visibility import differs_visibly
 from raytruth.comparisons.renderers.catalogue import all_renderers
+from raytruth.reference_tracer.certification import Undecided
 from raytruth.reference_tracer.certified_image import CertifiedImage, certified_image
 from raytruth.scenes.families.catalogue import family
 from tests.reference_tracer.small_scenes import library_scene
@@ -125,3 +126,23 @@ def test_nothing_feasible_is_lost_and_nothing_due_is_marked_otherwise(
             other for other in both.boxes if all(o[0] <= b[0] and b[1] <= o[1] for b, o in zip(box, other, strict=True))
         ]
         assert holders
+
+
+@given(boxes=BOXES.filter(len), flags=st.lists(st.booleans(), min_size=3, max_size=3), value=st.floats(0, 1))
+def test_the_truth_is_held_by_what_is_due_and_widens_no_box_that_looks_different(
+    boxes: list[list[tuple[float, float]]], flags: list[bool], value: float
+) -> None:
+    truth = CertifiedImage(np.full((1, 1, 3), value), np.full((1, 1, 3), 2.0**-60), np.ones((1, 1), dtype=np.int64), {})
+    before = Outcomes(boxes, [True, *flags[1 : len(boxes)]], merged=False)
+    after = with_truth(before, (0, 0), truth)
+    assert any(
+        is_due and all(low <= value <= high for low, high in box)
+        for box, is_due in zip(after.boxes, after.due, strict=True)
+    )
+    assert (after.due[: len(boxes)], after.merged) == (before.due, before.merged)
+    for old, new in zip(boxes, after.boxes, strict=False):
+        assert all(n[0] <= o[0] and o[1] <= n[1] for o, n in zip(old, new, strict=True))
+        assert not differs_visibly(old, new).any()
+    unknown = replace(truth, undecided={(0, 0): Undecided((0.0,) * 3, (0.0,) * 3, (), "a tie")})
+    assert with_truth(before, (0, 0), unknown) == before
+    assert with_truth(before, (0, 0), None) == before
