@@ -47,7 +47,7 @@ PLANTED = [
     ("inverted_index_ratio", "glass-sphere", PATH),
     ("no_total_internal_reflection", "total-reflection-prism", PATH),
     ("schlick", "total-reflection-prism", PATH),
-    ("reflection_one_percent_too_dark", "facing-mirrors-depth-2", ("mitsuba", "path")),
+    ("reflection_one_percent_too_dark", "mirror-icosahedron", ("mitsuba", "path")),
     ("horizontal_field_of_view", "sphere-over-floor", DIRECT),
     ("phong_for_blinn", "blinn-sphere", CLOSED_FORM),
 ]
