@@ -74,29 +74,36 @@ def _rebuilt(directory: Path) -> Results | None:
     if not cells:
         return None
     versions = {cell.renderer: cell.version for cell in cells}
-    waived, _ = apply_waivers(load_waivers(), cells, versions)
+    scenes = {cell.scene: _found_scene(cell) for cell in cells}
+    found = {name: scene for name, scene in scenes.items() if scene is not None}
+    waived, _ = apply_waivers(load_waivers(), cells, versions, found)
     return Results(
         raytruth_version="",
         created="",
         command="",
         machine={},
-        scenes=tuple(_scene_of(cell) for cell in {cell.scene: cell for cell in cells}.values()),
+        scenes=tuple(_record_of(name, scene) for name, scene in scenes.items()),
         renderers=tuple(_renderer_of(name, cells) for name in versions),
         cells=tuple(waived),
     )
 
 
-def _scene_of(cell: Cell) -> SceneRecord:
-    """Of the scene as it is today; next to nothing of one that is no longer there."""
+def _found_scene(cell: Cell) -> Scene | None:
+    """The scene of a cell as it is today; None where it is no longer there."""
     try:
         scene = open_scene(cell.source or cell.scene)
     except SceneError:
-        scene = None
-    if scene is not None and scene.name == cell.scene:
+        return None
+    return scene if scene.name == cell.scene else None
+
+
+def _record_of(name: str, scene: Scene | None) -> SceneRecord:
+    """What is told of a scene; next to nothing of one that is no longer there."""
+    if scene is not None:
         return scene_record(scene)
     gone = "Its file is not where it was."
     return SceneRecord(
-        name=cell.scene, purpose=gone, convention="unknown", width=0, height=0, features=(), light_paths="unknown"
+        name=name, purpose=gone, convention="unknown", width=0, height=0, features=(), light_paths="unknown"
     )
 
 

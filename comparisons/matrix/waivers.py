@@ -9,14 +9,17 @@ import fnmatch
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from pydantic import Field, TypeAdapter, ValidationError
+from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
+from raytruth.comparisons.matrix.scene_properties import PROPERTIES, Property
 from raytruth.comparisons.records.results import Cell, Link, Record, Verdict, Waived
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.scenes.wording import described, place, quoted, suggestion
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+    from raytruth.scenes.scene import Scene
 
 PACKAGED = Path(__file__).with_name("waivers.json")
 """The failures of renderers on scenes of the library."""
@@ -29,15 +32,19 @@ class WaiverError(Exception):
 
 
 class Waiver(Record):
-    """A known failure of a renderer, which does not make a run fail; see docs/how-verdicts-work.md."""
+    """A known failure of a renderer, which does not make a run fail; see docs/how-verdicts-work.md.
+
+    It is of one scene, or of all scenes that have a property in which the renderer is wrong.
+    """
 
     renderer: Text
     version: Text
     """Pattern of the renderer's version, in which `*` stands for anything."""
-    scene: Text
+    scene: Text | None = None
+    most_failing_pixels: Annotated[int, Field(ge=0)] | None = None
+    """So many pixels or first hits of the scene may fail; if more do, something else is wrong, too."""
+    scenes_with: Property | None = None
     integrator: Text
-    most_failing_pixels: Annotated[int, Field(ge=0)]
-    """So many pixels or first hits may fail; if more do, something else is wrong, too."""
     reason: Text
     link: Link
 
@@ -45,6 +52,14 @@ class Waiver(Record):
     def place(self) -> str:
         """The cell that it is about, in words."""
         return f"{self.renderer}/{self.integrator} on {self.scene}"
+
+    @model_validator(mode="after")
+    def _of_a_scene_or_of_a_property(self) -> Waiver:
+        if (self.scene is None) == (self.scenes_with is None):
+            raise ValueError("expected either scene or scenes_with")
+        if (self.scene is None) != (self.most_failing_pixels is None):
+            raise ValueError("expected most_failing_pixels with scene, and not with scenes_with")
+        return self
 
 
 _WAIVERS = TypeAdapter(tuple[Waiver, ...])
@@ -67,25 +82,43 @@ def load_waivers(path: Path = PACKAGED) -> tuple[Waiver, ...]:
 
 
 def apply_waivers(
-    waivers: Iterable[Waiver], cells: Sequence[Cell], versions: Mapping[str, str | None]
+    waivers: Iterable[Waiver],
+    cells: Sequence[Cell],
+    versions: Mapping[str, str | None],
+    scenes: Mapping[str, Scene],
 ) -> tuple[list[Cell], list[str]]:
-    """The cells, waived where they fail as a waiver says, and a sentence for each waiver that matches nothing.
+    """The cells, waived where they fail as a waiver says; a sentence for each of a scene that matches nothing.
 
-    `versions` has each renderer that was run. Waivers of other renderers, versions and scenes are left alone, as are
-    those of cells that ended in an error, which fail the run by themselves.
+    `versions` has each renderer that was run, and `scenes` each scene by its name. Waivers of other renderers, versions
+    and scenes are left alone, as are those of cells that ended in an error, which fail the run by themselves.
     """
-    by_place = {(cell.renderer, cell.scene, cell.integrator): cell for cell in cells}
+    after = list(cells)
     unmatched = []
     for waiver in waivers:
-        key = (waiver.renderer, waiver.scene, waiver.integrator)
-        cell = by_place.get(key)
-        if cell is None or not fnmatch.fnmatchcase(versions.get(waiver.renderer) or "", waiver.version):
+        if not fnmatch.fnmatchcase(versions.get(waiver.renderer) or "", waiver.version):
             continue
-        if cell.verdict == Verdict.FAIL and _failing(cell) <= waiver.most_failing_pixels:
-            by_place[key] = cell.model_copy(update={"waived": Waived(reason=waiver.reason, link=waiver.link)})
-        elif cell.verdict != Verdict.ERROR:
-            unmatched.append(f"The waiver of {waiver.place} matches nothing, since {_found(cell, waiver)}.")
-    return list(by_place.values()), unmatched
+        for index, cell in enumerate(after):
+            if not _is_about(waiver, cell, scenes):
+                continue
+            if cell.verdict == Verdict.FAIL and _excuses(waiver, cell):
+                after[index] = cell.model_copy(update={"waived": Waived(reason=waiver.reason, link=waiver.link)})
+            elif cell.verdict != Verdict.ERROR and waiver.scene is not None:
+                unmatched.append(f"The waiver of {waiver.place} matches nothing, since {_found(cell, waiver)}.")
+    return after, unmatched
+
+
+def _is_about(waiver: Waiver, cell: Cell, scenes: Mapping[str, Scene]) -> bool:
+    """Whether the cell is the waiver's: of its scene, or of one that has its property and no waiver of its own."""
+    if (cell.renderer, cell.integrator) != (waiver.renderer, waiver.integrator):
+        return False
+    if waiver.scenes_with is None:
+        return waiver.scene == cell.scene
+    scene = scenes.get(cell.scene)
+    return cell.waived is None and scene is not None and PROPERTIES[waiver.scenes_with](scene)
+
+
+def _excuses(waiver: Waiver, cell: Cell) -> bool:
+    return waiver.most_failing_pixels is None or _failing(cell) <= waiver.most_failing_pixels
 
 
 def _failing(cell: Cell) -> int:

@@ -7,7 +7,7 @@ import pytest
 
 from raytruth.comparisons.matrix.waivers import Waiver, WaiverError, apply_waivers, load_waivers
 from raytruth.comparisons.records.results import Cell, FirstHitComparison, Judgement, Verdict
-from raytruth.scenes.library import library_names
+from raytruth.scenes.library import library_names, open_scene
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -34,7 +34,7 @@ def cell(verdict: Verdict = Verdict.FAIL, failing: int = 3, **more: Any) -> Cell
 
 def applied(found: Cell, versions: dict[str, str | None] | None = None, **changes: Any) -> tuple[Cell, list[str]]:
     waiver = Waiver.model_validate(WAIVER | changes)
-    (after,), unmatched = apply_waivers([waiver], [found], VERSIONS if versions is None else versions)
+    (after,), unmatched = apply_waivers([waiver], [found], VERSIONS if versions is None else versions, {})
     return after, unmatched
 
 
@@ -96,10 +96,38 @@ def test_a_cell_that_ended_in_an_error_is_left_alone() -> None:
     assert applied(found) == (found, [])
 
 
-def test_the_packaged_waivers_are_of_scenes_of_the_library() -> None:
+def test_the_packaged_waivers_are_of_scenes_of_the_library_or_of_a_property() -> None:
     waivers = load_waivers()
     assert waivers
-    assert {waiver.scene for waiver in waivers} <= set(library_names())
+    assert {waiver.scene for waiver in waivers if waiver.scene is not None} <= set(library_names())
+
+
+OF_PROPERTY = {key: value for key, value in WAIVER.items() if key not in {"scene", "most_failing_pixels"}}
+OF_PROPERTY |= {"scenes_with": "nested dielectrics"}
+
+
+@pytest.mark.parametrize(("scene", "has_it"), [("bubble-in-glass", True), ("glass-sphere", False), ("gone", False)])
+def test_a_waiver_of_a_property_is_of_all_scenes_that_have_it_and_is_never_told(scene: str, has_it: bool) -> None:
+    waiver = Waiver.model_validate(OF_PROPERTY)
+    scenes = {name: open_scene(name).model_copy(update={"name": name}) for name in library_names()}
+    for found in (
+        cell(failing=9, scene=scene),
+        cell(Verdict.PASS, 0, scene=scene),
+        cell(Verdict.ERROR, 0, scene=scene),
+    ):
+        (after,), unmatched = apply_waivers([waiver], [found], VERSIONS, scenes)
+        assert (after.waived is not None) == (has_it and found.verdict == Verdict.FAIL)
+        assert unmatched == []
+    (other,), _ = apply_waivers([waiver], [cell(scene=scene, integrator="path")], VERSIONS, scenes)
+    assert other.waived is None
+
+
+def test_a_scene_with_more_failing_pixels_than_its_own_waiver_excuses_is_still_known_by_its_property() -> None:
+    waivers = [Waiver.model_validate(WAIVER | {"scene": "bubble-in-glass"}), Waiver.model_validate(OF_PROPERTY)]
+    scenes = {"bubble-in-glass": open_scene("bubble-in-glass")}
+    (after,), unmatched = apply_waivers(waivers, [cell(failing=4, scene="bubble-in-glass")], VERSIONS, scenes)
+    assert after.waived is not None
+    assert len(unmatched) == 1  # which fails the run all the same
 
 
 @pytest.mark.parametrize(
@@ -111,7 +139,10 @@ def test_the_packaged_waivers_are_of_scenes_of_the_library() -> None:
         ([WAIVER | {"most_failing_pixels": -1}], "[0].most_failing_pixels: "),
         ([WAIVER | {"reason": ""}], "[0].reason: "),
         ([WAIVER | {"verdict": "fail"}], "[0].verdict: "),
-        ([{}], "[0].renderer: Field required (and 6 more)."),
+        ([{}], "[0].renderer: Field required (and 4 more)."),
+        ([OF_PROPERTY | {"scenes_with": "fog"}], "[0].scenes_with: "),
+        ([OF_PROPERTY | {"scene": "a"}], "[0]: Value error, expected either scene or scenes_with"),
+        ([OF_PROPERTY | {"most_failing_pixels": 1}], "[0]: Value error, expected most_failing_pixels with scene"),
         ({}, "the whole file: "),
     ],
 )
