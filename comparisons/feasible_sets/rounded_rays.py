@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from flint import arb
 
 from raytruth.comparisons.error_models.behaviours import behaviour_of
+from raytruth.comparisons.feasible_sets.asked_once import RememberedHit, decide_shadows_once
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.arithmetics.balls import MARGIN_BITS, Decisions, ball_arithmetic, rounded_ball_arithmetic
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, merged
@@ -22,8 +23,6 @@ from raytruth.reference_tracer.source.scene_data import MATERIAL_INDEX, MATERIAL
 from raytruth.reference_tracer.source.traversal import NOTHING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.reference_tracer.rendering import PreparedScene
@@ -72,6 +71,7 @@ class PlainRays:
             store_indices(self.prepared, error_model.index_bits)
             kernel = self.prepared.kernel
             kernel.nearest_hit = RememberedHit(kernel.nearest_hit, self.decisions)
+            decide_shadows_once(kernel, self.decisions)
             camera = _exact_camera(scene, error_model) or self.prepared
             self._primary_ray = camera.kernel.primary_ray
             self._frame = camera.kernel.camera_frame(camera.data)
@@ -107,7 +107,9 @@ class LinkedRays:
             in_balls = merged(behaviour_of(error_model, scene), behaviour)
             self.prepared = prepare(scene, arithmetic, in_balls.with_numbers(arithmetic.functions["ball"]))
             store_indices(self.prepared, error_model.index_bits)
-            frame = self.prepared.kernel.camera_frame(self.prepared.data)
+            kernel = self.prepared.kernel
+            decide_shadows_once(kernel, self.decisions)
+            frame = kernel.camera_frame(self.prepared.data)
             numbers = iter(condensed([number for vector in frame for number in vector]))
             self._frame = tuple((next(numbers), next(numbers), next(numbers)) for _ in frame)
 
@@ -160,26 +162,6 @@ def store_indices(prepared: PreparedScene, bits: int | None) -> None:
             mantissa, exponent = math.frexp(exact[place])
             rounded = arb(math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits))
             prepared.data.numbers[place] = linked(rounded) if linked else rounded
-
-
-class RememberedHit:
-    """A kernel's nearest hit, which need not be found twice for a pixel's colour and for its first hit."""
-
-    def __init__(self, find: Callable[..., tuple[Any, int]], decisions: Decisions) -> None:
-        self.find = find
-        self.decisions = decisions
-        self.ray: tuple[Any, Any] = (None, None)
-        self.hit: tuple[Any, int] = (None, NOTHING)
-
-    def __call__(self, data: Any, origin: Any, direction: Any, left: int) -> tuple[Any, int]:
-        """The nearest hit: the last camera ray's, if it is asked for again and no comparison was undecided."""
-        if origin is self.ray[0] and direction is self.ray[1]:
-            return self.hit
-        before = self.decisions.position
-        hit = self.find(data, origin, direction, left)
-        if left == NOTHING and self.decisions.position == before:
-            self.ray, self.hit = (origin, direction), hit
-        return hit
 
 
 def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:

@@ -1,4 +1,4 @@
-"""Properties of scenes in which a renderer is known to be wrong: what a waiver may be about, not by the scene's name."""
+"""Properties of scenes in which a renderer is known to be wrong: what a waiver is about in place of one scene."""
 
 from __future__ import annotations
 

@@ -29,7 +29,9 @@ class Kernel(Protocol):
     """The functions of a kernel; each is the source's function of that name, and described there."""
 
     nearest_hit: Callable[[SceneData, Triple, Triple, int], tuple[Number, int]]
-    """An attribute that may be set, since what wraps it may save work (feasible_sets/rounded_rays.py)."""
+    """An attribute that may be set, since what wraps it may save work (feasible_sets/asked_once.py)."""
+    is_occluded: Callable[[SceneData, Triple, Triple, int, Number], bool]
+    """As above; only in kernels of scenes with lights."""
 
     def camera_frame(self, scene: SceneData, /) -> Frame:
         """See source/camera.py."""
