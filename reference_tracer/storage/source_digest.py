@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import functools
 import hashlib
+import threading
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).parents[2]
 """The package `raytruth`, which holds all others."""
+# Renderers are tried in threads. Python 3.11 counts the depth of a syntax tree for all threads together, and raises
+# SystemError where two of them make one at a time.
+_PARSING = threading.Lock()
 
 
 @functools.cache
@@ -47,7 +51,8 @@ def files_digest(paths: Iterable[Path]) -> str:
 @functools.cache
 def _statements(path: Path) -> str:
     """The syntax tree in words, which knows nothing of comments, without docstrings."""
-    module = ast.parse(path.read_bytes())
+    with _PARSING:
+        module = ast.parse(path.read_bytes())
     for node in ast.walk(module):
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and ast.get_docstring(node, clean=False):
             node.body.pop(0)

@@ -12,7 +12,7 @@ import pytest
 
 from raytruth.comparisons.records.results import Results
 from raytruth.reference_tracer.certified_image import certified_image, largest_value
-from raytruth.reports.agreement import confirming
+from raytruth.reports.confirmation import confirming
 from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.requirements import required_features
