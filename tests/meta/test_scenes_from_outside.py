@@ -89,6 +89,16 @@ def test_a_camera_on_a_sphere_may_see_what_the_truth_is(tmp_path: Path) -> None:
     assert inside.all(axis=3).any(axis=2).all()
 
 
+@pytest.mark.clause("VER-2", "SHAD-1")
+def test_a_light_at_a_corner_of_a_box_leaves_light_or_shadow_and_not_everything_open(tmp_path: Path) -> None:
+    cells = judged("../../extremes/tie_scenes/light-at-the-corner-of-a-box", ["embree", "povray", "raytruth"], tmp_path)
+    for name in (("embree", "direct"), ("povray", "whitted"), ("raytruth", "whitted")):
+        cell = cells[name]
+        assert cell.verdict == Verdict.PASS, cell.reason
+        assert cell.judgement is not None
+        assert cell.judgement.unjudged == 0
+
+
 @pytest.mark.clause("VER-4")
 def test_first_hits_of_which_nearly_all_are_left_open_are_told_and_do_not_pass(tmp_path: Path) -> None:
     cells = judged("slivers-seen-edge-on", ["vtk", "raytruth"], tmp_path)
