@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from flint import arb
 
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
-from raytruth.reference_tracer.source.features import SPHERES
+from raytruth.reference_tracer.source.features import PLANES, SPHERES
 from raytruth.reference_tracer.source.scene_data import (
     SPHERE_MATERIAL,
     TRIANGLE_A,
@@ -16,6 +16,7 @@ from raytruth.reference_tracer.source.scene_data import (
     rows_of,
     vector_of,
 )
+from raytruth.reference_tracer.source.traversal import first_plane
 from raytruth.reference_tracer.source.vector import add, cross, dot, subtract
 
 if TYPE_CHECKING:
@@ -48,7 +49,10 @@ def cross_terms(a: Vector, b: Vector) -> Vector:
 
 
 def triangle_of(scene: SceneData, primitive: int) -> int:
-    """The number of a primitive among the triangles; below 0 for a sphere."""
+    """The number of a primitive among the triangles; below 0 for a sphere, or a plane."""
+    if PLANES:
+        if primitive >= first_plane(scene):
+            return -1
     if SPHERES:
         return primitive - rows_of(scene, SPHERE_MATERIAL)
     return primitive

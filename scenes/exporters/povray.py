@@ -11,7 +11,7 @@ from raytruth.scenes.exporters.povray_materials import declare_material, fading,
 from raytruth.scenes.exporters.povray_text import block, color, comment, vector
 from raytruth.scenes.extent import spans_of
 from raytruth.scenes.lights import ConstantBackground, PointLight
-from raytruth.scenes.shapes import Mesh, Sphere
+from raytruth.scenes.shapes import Mesh, Plane, Sphere
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -157,7 +157,7 @@ def _object(scene: Scene, shape: Shape, identifier: str) -> str:
 def _glass(scene: Scene, shape: Shape, identifier: str, dielectric: Dielectric) -> str:
     textures = f"texture {{ {identifier} }} interior_texture {{ {identifier}_inside }}"
     last = (textures, interior_of(dielectric), "hollow no_shadow")
-    holds_camera = scene.camera.inside == shape.material and not isinstance(shape, Sphere)
+    holds_camera = scene.camera.inside == shape.material and not isinstance(shape, Sphere | Plane)
     # Triangles have no inside. A sphere that no ray can see tells that the camera is inside of what they enclose.
     inside = "sphere { position*unit, 1 no_image no_reflection no_shadow }"
     return _shape(shape, *last, also=inside if holds_camera else "")
@@ -165,7 +165,7 @@ def _glass(scene: Scene, shape: Shape, identifier: str, dielectric: Dielectric) 
 
 def _shadow(scene: Scene, shape: Shape) -> str:
     shadow = "no_image no_reflection"
-    if isinstance(shape, Sphere) and scene.camera.inside == shape.material:
+    if isinstance(shape, Sphere | Plane) and scene.camera.inside == shape.material:
         # With a hole around the camera, which would be inside of two objects else.
         return block("difference", _shape(shape), f"sphere {{ position*unit, {HOLE_RADIUS!r} }}", shadow)
     return _shape(shape, shadow)
@@ -174,6 +174,10 @@ def _shadow(scene: Scene, shape: Shape) -> str:
 def _shape(shape: Shape, *last: str, also: str = "") -> str:
     if isinstance(shape, Sphere):
         return block("sphere", f"{vector(shape.center)}*unit, {shape.radius!r}*unit", *last)
+    if isinstance(shape, Plane):
+        # Its place is how far it is from the origin along the unit normal.
+        normal = f"vnormalize({vector(shape.normal)})"
+        return block("plane", f"{normal}, vdot({vector(shape.point)}, {normal})*unit", *last)
     corners = [shape.vertices]
     if isinstance(shape, Mesh):
         corners = [tuple(shape.vertices[index] for index in face) for face in shape.faces]
