@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def objects_of_primitives(scene: Scene) -> list[int]:
-    """For each primitive which of the scene's objects it belongs to: spheres come first, then triangles, then planes."""
+    """For each primitive which of the scene's objects it belongs to: spheres first, then triangles, then planes."""
     spheres = [index for index, shape in enumerate(scene.objects) if isinstance(shape, Sphere)]
     triangles = [
         index

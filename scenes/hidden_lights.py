@@ -40,7 +40,8 @@ MOST_TRIANGLES = 256
 def may_be_hidden(scene: Scene) -> str | None:
     """In one clause which triangle may hide a light from which, as far as is proved; None if surely none does.
 
-    Only of triangles, and only those surfaces count that have a term which is lit by lights. Of planes nothing is proved.
+    Only of triangles, and only those surfaces count that have a term which is lit by lights. Of infinite planes nothing
+    is proved.
     """
     if has_planes(scene):
         return "an infinite plane may hide a light, and nothing is proved of planes"

@@ -60,7 +60,7 @@ class Plane(Part):
     shape: Literal["plane"]
     point: Vector
     normal: Direction
-    """Of any length, which changes nothing. As glass the plane bounds the half space on the side it points away from."""
+    """Of any length, which changes nothing. Glass fills the half space on the side that it points away from."""
     material: str
 
 

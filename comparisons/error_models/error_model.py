@@ -104,8 +104,8 @@ class ErrorModel:
     """Of scenes for which the least distance of hits and the shadow tolerance are as stated (`extent_of`). A renderer
     that has them in units of its own, and gets larger scenes in larger units, has them so many times longer there."""
     farthest: float = inf
-    """In scenes with infinite planes, which have no extent: what is farther than this from where a ray starts may be met
-    or not. It grows as the least distance does."""
+    """In scenes with infinite planes, which have no extent: what is farther than this from where a ray starts may be
+    met or not. It grows as the least distance does."""
     index_bits: int | None = None
     """Indices of refraction are rounded to this many bits when they are stored, if to fewer than all else."""
     triangle_test: Literal["watertight", "moeller-trumbore", "pluecker"] = "watertight"

@@ -50,7 +50,7 @@ def cross_terms(a: Vector, b: Vector) -> Vector:
 
 def triangle_of(scene: SceneData, primitive: int) -> int:
     """The number of a primitive among the triangles; below 0 for a sphere, or a plane."""
-    if PLANES:
+    if PLANES:  # noqa: SIM102 - a kernel without planes keeps nothing of it
         if primitive >= first_plane(scene):
             return -1
     if SPHERES:

@@ -1,7 +1,7 @@
 """Intersection of a ray and an infinite plane (docs/spec.md, PLANE).
 
-With o the origin, d the direction, p a point of the plane and m its normal, of any length, the ray meets the plane where
-(o + t·d - p)·m = 0, which is at t = (p-o)·m / d·m: the length of m has no effect.
+With o the origin, d the direction, p a point of the plane and m its normal, of any length, the ray meets the plane
+where (o + t·d - p)·m = 0, which is at t = (p-o)·m / d·m: the length of m has no effect.
 """
 
 from __future__ import annotations

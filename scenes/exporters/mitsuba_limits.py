@@ -13,7 +13,7 @@ from raytruth.scenes.lights import PointLight
 from raytruth.scenes.materials import CheckerboardColor, colors_of
 from raytruth.scenes.planes import refuses_planes
 from raytruth.scenes.requirements import required_features
-from raytruth.scenes.shapes import Mesh, Sphere, Triangle
+from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -115,9 +115,9 @@ def intersect_plane(rays: Rays, point: Array, normal: Array) -> Hits:
 def is_unobstructed(light: Light, shape: Shape, hits: Hits) -> NDArray[np.bool_]:
     """Whether a light on the viewer's side of the tangent plane is seen from each hit point; shape (height, width).
 
-    A triangle or a plane is flat, and a sphere seen from outside is convex: neither can stand before what their tangent plane
-    does not hide. Seen from inside, the ball is convex, so it holds the whole way to every point light in it, and hides
-    all that is outside.
+    A triangle or a plane is flat, and a sphere seen from outside is convex: none can stand before what its tangent
+    plane does not hide. Seen from inside, the ball is convex, so it holds the whole way to every point light in it, and
+    hides all that is outside.
     """
     if not isinstance(shape, Sphere):
         return np.ones_like(hits.is_front)
