@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.scenes.exporters.povray_limits import refuses, unit_of
+from raytruth.scenes.exporters.povray_limits import DEEPEST, FARTHEST, refuses, unit_of
 from raytruth.scenes.exporters.povray_materials import declare_material, fading, interior_of, polynomial_falloff
 from raytruth.scenes.exporters.povray_text import block, color, comment, vector
 from raytruth.scenes.extent import spans_of
 from raytruth.scenes.lights import ConstantBackground, PointLight
+from raytruth.scenes.planes import has_planes
 from raytruth.scenes.shapes import Mesh, Plane, Sphere
 
 if TYPE_CHECKING:
@@ -26,6 +27,9 @@ SCENE_FILE = "scene.pov"
 HOLE_RADIUS = 5e-6
 # A parallel light of POV-Ray throws no shadows of what is behind its position: in radii of a ball around all objects.
 SUN_DISTANCE = 2.0
+# Infinite planes are in no ball. But each ray of a path meets what is within FARTHEST, the shadow ray at its end, too;
+# there are the camera's ray, as many as bounces, and one shadow ray. One more is left for the size of all else.
+SUN_DISTANCE_OVER_PLANES = (DEEPEST + 3) * FARTHEST
 
 HEADER = """\
 #version 3.7;
@@ -140,9 +144,12 @@ def _light(scene: Scene, light: Light) -> str:
     centers, radii = spans_of(scene)
     middle = centers.mean(axis=0)
     radius = float((np.linalg.norm(centers - middle, axis=1) + radii).max())
-    position = middle - SUN_DISTANCE * radius * np.array(light.direction) / np.linalg.norm(light.direction)
+    far = SUN_DISTANCE_OVER_PLANES / unit_of(scene) if has_planes(scene) else SUN_DISTANCE * radius
+    position = middle - far * np.array(light.direction) / np.linalg.norm(light.direction)
+    # What the light looks at is as far as it is, where it is so far that rounding its place would turn it else.
+    point_at = vector(middle) if has_planes(scene) else f"({vector(position)} + {vector(light.direction)})"
     lines = [f"{vector(position)}*unit, {color(light.irradiance)}*exposure", "parallel"]
-    lines.append(f"point_at ({vector(position)} + {vector(light.direction)})*unit")
+    lines.append(f"point_at {point_at}*unit")
     return block("light_source", *lines) + "\n"
 
 

@@ -12,7 +12,6 @@ from raytruth.scenes.exporters.povray_materials import polynomial_falloff
 from raytruth.scenes.extent import extent_of
 from raytruth.scenes.features import BACKGROUNDS, FURTHER_RAYS, GEOMETRY, LIGHTS, LOCAL_TERMS, Feature, missing_features
 from raytruth.scenes.media import relative_index
-from raytruth.scenes.planes import has_planes
 from raytruth.scenes.requirements import required_features
 from raytruth.scenes.shapes import Mesh, Plane, Sphere
 
@@ -41,8 +40,6 @@ def refuses(scene: Scene) -> str | None:
     reach = extent_of(scene)
     if reach > FARTHEST:
         return f"POV-Ray meets nothing that is farther than {FARTHEST:.0e} units away, and rays may go {reach:.2g} here"
-    if has_planes(scene) and any(light.kind == "directional" for light in scene.lights):
-        return "a directional light of POV-Ray stands at some distance, and an infinite plane reaches beyond it"
     if len(scene.lights) > 1 and any(polynomial_falloff(light) for light in scene.lights):
         return "lights of POV-Ray lack this polynomial attenuation, and a filter in its place would dim others, too"
     reason = _refuses_dielectrics(scene) if scene.max_depth else None
