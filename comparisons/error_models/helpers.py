@@ -13,10 +13,10 @@ from raytruth.reference_tracer.source.scene_data import (
     TRIANGLE_A,
     TRIANGLE_B,
     TRIANGLE_C,
+    plane_of,
     rows_of,
     vector_of,
 )
-from raytruth.reference_tracer.source.traversal import first_plane
 from raytruth.reference_tracer.source.vector import add, cross, dot, subtract
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def cross_terms(a: Vector, b: Vector) -> Vector:
 def triangle_of(scene: SceneData, primitive: int) -> int:
     """The number of a primitive among the triangles; below 0 for a sphere, or a plane."""
     if PLANES:  # noqa: SIM102 - a kernel without planes keeps nothing of it
-        if primitive >= first_plane(scene):
+        if plane_of(scene, primitive) >= 0:
             return -1
     if SPHERES:
         return primitive - rows_of(scene, SPHERE_MATERIAL)

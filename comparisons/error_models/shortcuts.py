@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from raytruth.comparisons.error_models.error_model import RayOffset
+from raytruth.scenes.planes import has_planes
 from raytruth.scenes.shapes import Plane, Sphere
 
 if TYPE_CHECKING:
@@ -21,12 +23,13 @@ if TYPE_CHECKING:
 
 
 def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
-    """The error model without its shortcuts: rays start on the surface, shadow rays end at the light."""
-    return replace(error_model, ray_offset=RayOffset(), shadow_shortening=0.0, shadow_tolerance=0.0)
+    """The error model without its shortcuts: rays start on the surface and go any way, shadow rays end at the light."""
+    return replace(error_model, ray_offset=RayOffset(), shadow_shortening=0.0, shadow_tolerance=0.0, farthest=inf)
 
 
 def has_shortcuts(error_model: ErrorModel) -> bool:
-    """Whether it declares any: a ray offset, a least distance, shadow rays that end early or overlook what is near.
+    """Whether it declares any: a ray offset, a least distance, shadow rays that end early or overlook what is near, a
+    farthest distance.
 
     A surface that is tested as all others are, when a ray leaves it, is one, too.
     """
@@ -49,6 +52,8 @@ def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
     ]
     if error_model.shadow_shortening > 0.0:
         told.append(f"its shadow rays end {error_model.shadow_shortening:.2g} of the distance before the light")
+    if isfinite(error_model.farthest) and has_planes(scene):
+        told.append(f"it may miss what is farther than {error_model.farthest:.2g}, and planes are infinite")
     return ", ".join(told)
 
 

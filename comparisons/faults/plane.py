@@ -11,15 +11,12 @@ from raytruth.reference_tracer.source.vector import negate, normalize
 if TYPE_CHECKING:
     from raytruth.reference_tracer.source.numbers import Vector
 
-IS_AHEAD = "(height > 0.0 and approach > 0.0) or (height < 0.0 and approach < 0.0)"
-"""The condition under which the tracer's ray meets a plane."""
-
 
 @fault(
     "PLANE-1",
     "plane_distance",
     "What is seen above the horizon of a floor?",
-    Edit(IS_AHEAD, "approach != 0.0"),
+    Edit("(height > 0.0 and approach > 0.0) or (height < 0.0 and approach < 0.0)", "approach != 0.0"),
     Edit("height / approach", "abs(height / approach)"),
 )
 def plane_behind_the_start() -> None:
@@ -63,7 +60,7 @@ def nearly_parallel_rays_miss_planes() -> None:
     "PLANE-3",
     "plane_distance",
     "From how many sides can a plane be seen?",
-    Edit(IS_AHEAD, "height < 0.0 and approach < 0.0"),
+    Edit("(height > 0.0 and approach > 0.0) or (height < 0.0 and approach < 0.0)", "height < 0.0 and approach < 0.0"),
 )
 def planes_seen_from_the_front_only() -> None:
     """A plane is seen only from the side that its normal points to."""

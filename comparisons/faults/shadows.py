@@ -13,6 +13,7 @@ from raytruth.reference_tracer.source.scene_data import (
     PLANE_MATERIAL,
     SPHERE_MATERIAL,
     SceneData,
+    first_plane,
     rows_of,
 )
 from raytruth.reference_tracer.source.shadow import shadow_ray_end
@@ -21,7 +22,6 @@ from raytruth.reference_tracer.source.traversal import (
     distance_to_plane,
     distance_to_sphere,
     distance_to_triangle,
-    first_plane,
     is_occluded,
 )
 from raytruth.reference_tracer.source.vector import add, along, dot, normalize, subtract

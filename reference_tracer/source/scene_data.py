@@ -100,3 +100,13 @@ def vector_of(scene: SceneData, table: int, row: int) -> Vector:
     """The vector that stands in a row of a table."""
     start = scene.integers[table] + 3 * row
     return (scene.numbers[start], scene.numbers[start + 1], scene.numbers[start + 2])
+
+
+def first_plane(scene: SceneData) -> int:
+    """The number of the first plane among the primitives: planes come after spheres and triangles."""
+    return rows_of(scene, SPHERE_MATERIAL) + rows_of(scene, TRIANGLE_MATERIAL)
+
+
+def plane_of(scene: SceneData, primitive: int) -> int:
+    """The number of a primitive among the planes; below 0 for a sphere, a triangle, or none."""
+    return primitive - first_plane(scene)

@@ -31,8 +31,10 @@ from raytruth.reference_tracer.source.scene_data import (
     TRIANGLE_C,
     TRIANGLE_MATERIAL,
     SceneData,
+    first_plane,
     integer_of,
     number_of,
+    plane_of,
     rows_of,
     vector_of,
 )
@@ -126,18 +128,13 @@ def nearest_plane(
     scene: SceneData, origin: Vector, direction: Vector, left: int, nearest: Scalar, hit: int
 ) -> tuple[Scalar, int]:
     """Distance and number of the nearest hit: `nearest` and `hit` so far, or those of a plane that is nearer."""
-    first = first_plane(scene)
+    left_plane = plane_of(scene, left)
     for plane in range(rows_of(scene, PLANE_MATERIAL)):
-        distance = distance_to_plane(scene, origin, direction, left - first, plane)
+        distance = distance_to_plane(scene, origin, direction, left_plane, plane)
         if distance < nearest:
             nearest = distance
-            hit = first + plane
+            hit = first_plane(scene) + plane
     return nearest, hit
-
-
-def first_plane(scene: SceneData) -> int:
-    """The number of the first plane among the primitives; how many primitives there are, if it has none."""
-    return rows_of(scene, SPHERE_MATERIAL) + rows_of(scene, TRIANGLE_MATERIAL)
 
 
 def distance_to_plane(scene: SceneData, origin: Vector, direction: Vector, left: int, plane: int) -> Scalar:
@@ -168,7 +165,7 @@ def is_occluded(scene: SceneData, origin: Vector, direction: Vector, left: int, 
 def surface_normal(scene: SceneData, primitive: int, point: Vector) -> Vector:
     """The unit normal at a point of a primitive, as its shape defines it: not turned to the viewer."""
     if PLANES:
-        plane = primitive - first_plane(scene)
+        plane = plane_of(scene, primitive)
         if plane >= 0:
             return plane_normal(vector_of(scene, PLANE_NORMAL, plane))
     spheres = rows_of(scene, SPHERE_MATERIAL)
@@ -190,7 +187,7 @@ def surface_normal(scene: SceneData, primitive: int, point: Vector) -> Vector:
 def material_of(scene: SceneData, primitive: int) -> int:
     """The row of the material tables that belongs to a primitive."""
     if PLANES:
-        plane = primitive - first_plane(scene)
+        plane = plane_of(scene, primitive)
         if plane >= 0:
             return integer_of(scene, PLANE_MATERIAL, plane)
     spheres = rows_of(scene, SPHERE_MATERIAL)
