@@ -11,6 +11,7 @@ declared beside them for their sake are constants, whose values are given by `of
 
 from __future__ import annotations
 
+import sys
 from math import inf, isfinite, sqrt
 from typing import TYPE_CHECKING
 
@@ -94,7 +95,7 @@ def offset_behaviour(error_model: ErrorModel) -> Behaviour:
         "minimum_distance": stored_number(offset.minimum_distance, bits),
         "shadow_shortening": stored_number(error_model.shadow_shortening, bits),
         "shadow_tolerance": stored_number(error_model.shadow_tolerance, bits),
-        "farthest_met": arb(error_model.farthest),
+        "farthest_met": arb(min(error_model.farthest, sys.float_info.max)),  # not infinite: it is divided
         "either_sign": arb(0, 1),
     }
     return Behaviour(functions, (offset_length, comes_back), constants, "ray offsets")
