@@ -156,9 +156,20 @@ def _light(scene: Scene, light: Light) -> str:
 def _object(scene: Scene, shape: Shape, identifier: str) -> str:
     dielectric = scene.materials[shape.material].dielectric
     if dielectric is None or scene.max_depth == 0:
-        return _shape(shape, f"texture {{ {identifier} }}") + "\n"
+        return _shape(_facing_camera(scene, shape), f"texture {{ {identifier} }}") + "\n"
     glass = _glass(scene, shape, identifier, dielectric)
     return f"{glass}\n// Every surface throws a black shadow: this one does nothing else.\n{_shadow(scene, shape)}\n"
+
+
+def _facing_camera(scene: Scene, shape: Shape) -> Shape:
+    """An opaque plane, which looks alike from both sides, with its normal on that of the camera and so of all rays.
+
+    The other side is inside of it for POV-Ray, and a camera that is inside of an object is in its medium.
+    """
+    if isinstance(shape, Plane) and np.subtract(scene.camera.position, shape.point) @ np.array(shape.normal) < 0.0:
+        x, y, z = shape.normal
+        return shape.model_copy(update={"normal": (-x, -y, -z)})
+    return shape
 
 
 def _glass(scene: Scene, shape: Shape, identifier: str, dielectric: Dielectric) -> str:

@@ -150,3 +150,12 @@ def test_over_planes_the_sun_stands_behind_all_that_shadow_rays_may_meet(tmp_pat
     # As many rays of the farthest distance one after the other as there may be, and one more.
     assert sun_of(over_plane) > (DEEPEST + 2) * FARTHEST / unit_of(build(objects=[BALL, PLANE], lights=[SUN]))
     assert "point_at <0.2, -0.4, 0.25>*unit" in over_plane
+
+
+def test_an_opaque_plane_has_the_camera_outside_and_one_of_glass_keeps_its_normal(tmp_path: Path) -> None:
+    away = PLANE | {"normal": (0.0, -2.0, 0.0)}
+    assert "plane {\n  vnormalize(<-0.0, 2.0, -0.0>)" in export(tmp_path, objects=[away])
+    camera = build().camera.model_dump() | {"inside": "m"}
+    assert "plane {\n  vnormalize(<0.0, -2.0, 0.0>)" in export(
+        tmp_path, objects=[away], camera=camera, materials={"m": GLASS}, max_depth=1
+    )
