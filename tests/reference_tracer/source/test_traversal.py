@@ -42,6 +42,7 @@ SCENE = scene_data(TABLES)
 WITH_PLANES = {
     layout.PLANE_POINT: [(5.0, -5.0, 2.0), (-7.0, 3.0, 3.0)],
     layout.PLANE_NORMAL: [(0.0, 0.0, -4.0), (0.0, 0.0, 0.5)],
+    layout.CAMERA_SIZE: [6, 6],  # so that no material is that of the neighbouring table by chance
     layout.PLANE_MATERIAL: [8, 9],
 }
 PLANES = scene_data(TABLES | WITH_PLANES)
@@ -120,6 +121,11 @@ def test_planes_are_met_as_all_else_is(z: float, left: int, expected: tuple[floa
 def test_a_plane_that_was_left_is_left_out_by_its_number_not_by_a_distance() -> None:
     assert distance_to_plane(PLANES, (0.0, 0.0, 2.001), AHEAD, 0, 0) == inf
     assert distance_to_plane(PLANES, (0.0, 0.0, 2.5), AHEAD, 1, 0) == 0.5
+    # By its number among all primitives: the first plane is the fifth of them.
+    assert nearest_hit(PLANES, (0.0, 0.0, 2.001), AHEAD, 4) == (1.001, 0)
+    assert nearest_hit(PLANES, (0.0, 0.0, 2.25), AHEAD, 5) == (0.25, 4)
+    assert not is_occluded(PLANES, (0.0, 0.0, 2.001), AHEAD, 4, 1.0)
+    assert is_occluded(PLANES, (0.0, 0.0, 2.001), AHEAD, 5, 1.0)
 
 
 @pytest.mark.clause("TRAV-3")
