@@ -37,7 +37,7 @@ RECORDED = (
     *("nearest_hit", "surface_at", "material_of", "background_radiance", "medium_transmittance"),
     *("local_illumination", "attenuation", "direct_light"),
     *Material.model_fields,
-    *("is_occluded", "distance_to_sphere", "nearest_triangle"),
+    *("is_occluded", "distance_to_sphere", "nearest_triangle", "nearest_plane"),
     *("snell_discriminant", "fresnel_reflectance", "split", "total_reflection_weight"),
 )
 """The functions of the tracer whose calls are noted, where a scene's kernel has them; most terms have one."""

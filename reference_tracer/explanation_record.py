@@ -27,7 +27,7 @@ class Hit(Record):
 
     distance: float
     primitive: int
-    """Spheres first, then triangles, in the order of the scene's objects."""
+    """Spheres first, then triangles, then planes, in the order of the scene's objects."""
     object_index: int
     """Which of the scene's `objects`."""
     material: str

@@ -5,22 +5,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from raytruth.scenes.lights import PointLight
-from raytruth.scenes.shapes import Mesh, Sphere
+from raytruth.scenes.shapes import Mesh, Plane, Sphere
 
 if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
 
 
 def objects_of_primitives(scene: Scene) -> list[int]:
-    """For each primitive which of the scene's objects it belongs to: spheres come first, then triangles."""
+    """For each primitive which of the scene's objects it belongs to: spheres first, then triangles, then planes."""
     spheres = [index for index, shape in enumerate(scene.objects) if isinstance(shape, Sphere)]
     triangles = [
         index
         for index, shape in enumerate(scene.objects)
-        if not isinstance(shape, Sphere)
+        if not isinstance(shape, Sphere | Plane)
         for _ in range(len(shape.faces) if isinstance(shape, Mesh) else 1)
     ]
-    return spheres + triangles
+    planes = [index for index, shape in enumerate(scene.objects) if isinstance(shape, Plane)]
+    return spheres + triangles + planes
 
 
 def lights_as_traced(scene: Scene) -> list[int]:

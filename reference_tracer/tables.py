@@ -15,7 +15,7 @@ from raytruth.reference_tracer.source.illumination import INVERSE_SQUARE, POLYNO
 from raytruth.scenes.camera import PerspectiveCamera
 from raytruth.scenes.features import Feature
 from raytruth.scenes.lights import ConstantBackground, DirectionalLight, PointLight, PolynomialFalloff
-from raytruth.scenes.shapes import Mesh, Sphere
+from raytruth.scenes.shapes import Mesh, Plane, Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
@@ -101,6 +101,11 @@ def _add_shapes(scene: Scene, features: Collection[str], tables: _Tables) -> Non
         for table, corner in ((layout.TRIANGLE_A, 0), (layout.TRIANGLE_B, 1), (layout.TRIANGLE_C, 2)):
             tables.add(table, corners[:, corner])
         tables.add_integers(layout.TRIANGLE_MATERIAL, [names.index(name) for name in materials])
+    planes = [shape for shape in scene.objects if isinstance(shape, Plane)]
+    if planes:
+        tables.add(layout.PLANE_POINT, [plane.point for plane in planes])
+        tables.add(layout.PLANE_NORMAL, [plane.normal for plane in planes])
+        tables.add_integers(layout.PLANE_MATERIAL, [names.index(plane.material) for plane in planes])
     if Feature.BOUNDING_VOLUMES in features:
         tree = build_tree(corners)
         tables.add(layout.NODE_LOW, tree.low)
@@ -119,7 +124,7 @@ def triangles_of(scene: Scene) -> tuple[NDArray[np.float64], list[str]]:
         if isinstance(shape, Mesh):
             corners.append(np.array(shape.vertices)[np.array(shape.faces)])
             materials.extend([shape.material] * len(shape.faces))
-        elif not isinstance(shape, Sphere):
+        elif not isinstance(shape, Sphere | Plane):
             corners.append(np.array([shape.vertices]))
             materials.append(shape.material)
     return np.concatenate(corners), materials

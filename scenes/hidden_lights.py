@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from raytruth.scenes.exporters.triangle_soup import material_of_each_triangle, triangles_of_scene
 from raytruth.scenes.lights import PointLight
+from raytruth.scenes.planes import has_planes
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -39,8 +40,11 @@ MOST_TRIANGLES = 256
 def may_be_hidden(scene: Scene) -> str | None:
     """In one clause which triangle may hide a light from which, as far as is proved; None if surely none does.
 
-    Only of triangles, and only those surfaces count that have a term which is lit by lights.
+    Only of triangles, and only those surfaces count that have a term which is lit by lights. Of infinite planes nothing
+    is proved.
     """
+    if has_planes(scene):
+        return "an infinite plane may hide a light, and nothing is proved of planes"
     materials = [scene.materials[name] for name in material_of_each_triangle(scene)]
     lit = [number for number, material in enumerate(materials) if "lights" in material.light_from()]
     if not lit or not scene.lights:

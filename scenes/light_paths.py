@@ -17,7 +17,7 @@ import numpy as np
 import regex
 
 from raytruth.scenes.lights import shines
-from raytruth.scenes.shapes import Mesh, Sphere, Triangle
+from raytruth.scenes.shapes import Mesh, Plane, Sphere, Triangle
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -141,14 +141,18 @@ def _can_see(scene: Scene, i: int, j: int) -> bool:
         return scene.materials[first.material].dielectric is not None or _something_is_inside(scene, first)
     if isinstance(first, Sphere) or isinstance(second, Sphere):
         return True
+    if isinstance(first, Plane):
+        return i != j and not _lies_in(second, first)
+    if isinstance(second, Plane):
+        return not _lies_in(first, second)
     return not _is_flat(_corners(first) if i == j else np.concatenate([_corners(first), _corners(second)]))
 
 
 def _something_is_inside(scene: Scene, sphere: Sphere) -> bool:
     """Whether a viewer may be inside: the camera, or a part of another object."""
-    if _camera_is_inside(scene, sphere):
+    if _camera_is_inside(scene, sphere) or any(_cuts(shape, sphere) for shape in scene.objects):
         return True
-    points = [_points(shape) for shape in scene.objects if shape is not sphere]
+    points = [_points(shape) for shape in scene.objects if shape is not sphere and not isinstance(shape, Plane)]
     if not points:
         return False
     distances = np.linalg.norm(np.concatenate(points) - np.array(sphere.center), axis=1)
@@ -165,7 +169,24 @@ def _camera_is_inside(scene: Scene, sphere: Sphere) -> bool:
     return bool(abs(to_center @ forward) < sphere.radius * np.linalg.norm(forward))
 
 
-def _points(shape: Shape) -> Points:
+def _cuts(shape: Shape, sphere: Sphere) -> bool:
+    """Whether a plane may cut a sphere; one that touches it may, as far as rounding tells."""
+    if not isinstance(shape, Plane):
+        return False
+    normal = np.array(shape.normal)
+    return bool(abs(np.subtract(sphere.center, shape.point) @ normal) <= sphere.radius * np.linalg.norm(normal))
+
+
+def _lies_in(shape: Triangle | Mesh | Plane, plane: Plane) -> bool:
+    """Whether all of a flat shape surely lies in a plane that is perpendicular to an axis: nothing is rounded then."""
+    axes = np.flatnonzero(plane.normal)
+    if len(axes) != 1 or (isinstance(shape, Plane) and np.flatnonzero(shape.normal).tolist() != axes.tolist()):
+        return False
+    points = np.array([shape.point]) if isinstance(shape, Plane) else _corners(shape)
+    return bool((points[:, axes[0]] == plane.point[axes[0]]).all())
+
+
+def _points(shape: Sphere | Triangle | Mesh) -> Points:
     return np.array([shape.center]) if isinstance(shape, Sphere) else _corners(shape)
 
 

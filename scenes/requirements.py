@@ -52,6 +52,8 @@ def _shapes(scene: Scene) -> Iterator[Feature]:
     for shape in scene.objects:
         if shape.shape == "sphere":
             yield Feature.SPHERES
+        elif shape.shape == "plane":
+            yield Feature.PLANES
         else:
             triangles += 1 if shape.shape == "triangle" else len(shape.faces)
     if triangles:

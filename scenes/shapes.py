@@ -1,4 +1,4 @@
-"""Shapes: spheres, triangles, and meshes of triangles."""
+"""Shapes: spheres, triangles, meshes of triangles, and infinite planes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import ConfigDict, Field
 
-from raytruth.scenes.values import Part, Positive, Vector
+from raytruth.scenes.values import Direction, Part, Positive, Vector
 
 if TYPE_CHECKING:
     from pydantic.config import JsonDict
@@ -54,4 +54,14 @@ class Mesh(Part):
     material: str
 
 
-Shape = Annotated[Sphere | Triangle | Mesh, Field(discriminator="shape")]
+class Plane(Part):
+    """An infinite plane through a point; its surface normal is `normal` made a unit vector, the same everywhere."""
+
+    shape: Literal["plane"]
+    point: Vector
+    normal: Direction
+    """Of any length, which changes nothing. Glass fills the half space on the side that it points away from."""
+    material: str
+
+
+Shape = Annotated[Sphere | Triangle | Mesh | Plane, Field(discriminator="shape")]

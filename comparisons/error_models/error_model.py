@@ -103,6 +103,9 @@ class ErrorModel:
     largest_extent: float = inf
     """Of scenes for which the least distance of hits and the shadow tolerance are as stated (`extent_of`). A renderer
     that has them in units of its own, and gets larger scenes in larger units, has them so many times longer there."""
+    farthest: float = inf
+    """In scenes with infinite planes, which have no extent: what is farther than this from where a ray starts may be
+    met or not. It grows as the least distance does."""
     index_bits: int | None = None
     """Indices of refraction are rounded to this many bits when they are stored, if to fewer than all else."""
     triangle_test: Literal["watertight", "moeller-trumbore", "pluecker"] = "watertight"
@@ -146,7 +149,13 @@ class ErrorModel:
             return self
         offset = replace(self.ray_offset, minimum_distance=self.ray_offset.minimum_distance * growth)
         tolerance = self.shadow_tolerance * growth
-        return replace(self, ray_offset=offset, shadow_tolerance=tolerance, largest_extent=self.largest_extent * growth)
+        return replace(
+            self,
+            ray_offset=offset,
+            shadow_tolerance=tolerance,
+            farthest=self.farthest * growth,
+            largest_extent=self.largest_extent * growth,
+        )
 
     def of_light(self) -> ErrorModel:
         """The error model of colours: a rasteriser's light has an arithmetic of its own, other than its hits have."""
@@ -160,6 +169,7 @@ class ErrorModel:
         around = f"within {self.image_radius:.3g} pixels of a pixel's centre, in x and in y"
         near = f"{self.shadow_tolerance:.3g} from the surface or the light may throw a shadow or none"
         grows = f"where rays go farther than {self.largest_extent:.4g}, least distances are so many times longer"
+        far = f"what is farther than {self.farthest:.4g} in a scene that has them"
         return {
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
@@ -173,6 +183,7 @@ class ErrorModel:
             "rays that leave a surface start": self.ray_offset.in_words(),
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",
             "what is near": f"nearer than {near}" if self.shadow_tolerance > 0.0 else "throws shadows as all else",
+            "infinite planes": f"{far} may be met or not" if isfinite(self.farthest) else "are met at any distance",
             "large scenes": grows if isfinite(self.largest_extent) else "as all others",
             "output": self.output.in_words(),
             "random numbers": self.random_choices or "none",

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 from flint import arb
 
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
-from raytruth.reference_tracer.source.features import SPHERES
+from raytruth.reference_tracer.source.features import PLANES, SPHERES
 from raytruth.reference_tracer.source.scene_data import (
     SPHERE_MATERIAL,
     TRIANGLE_A,
     TRIANGLE_B,
     TRIANGLE_C,
+    plane_of,
     rows_of,
     vector_of,
 )
@@ -48,7 +49,10 @@ def cross_terms(a: Vector, b: Vector) -> Vector:
 
 
 def triangle_of(scene: SceneData, primitive: int) -> int:
-    """The number of a primitive among the triangles; below 0 for a sphere."""
+    """The number of a primitive among the triangles; below 0 for a sphere, or a plane."""
+    if PLANES:  # noqa: SIM102 - a kernel without planes keeps nothing of it
+        if plane_of(scene, primitive) >= 0:
+            return -1
     if SPHERES:
         return primitive - rows_of(scene, SPHERE_MATERIAL)
     return primitive

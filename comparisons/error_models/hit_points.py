@@ -20,7 +20,13 @@ from raytruth.comparisons.error_models.helpers import (
     triangle_of,
 )
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
-from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_RADIUS, number_of, vector_of
+from raytruth.reference_tracer.source.scene_data import (
+    SPHERE_CENTER,
+    SPHERE_RADIUS,
+    number_of,
+    rows_of,
+    vector_of,
+)
 from raytruth.reference_tracer.source.vector import add, along, cross, dot, normalize, scale, subtract
 
 if TYPE_CHECKING:
@@ -96,7 +102,7 @@ def as_put_back(scene: SceneData, point: Vector, distance: Scalar, sphere: int) 
 def hit_point_by_pluecker(
     scene: SceneData, origin: Vector, direction: Vector, distance: Scalar, primitive: int
 ) -> Vector:
-    """On a sphere along the ray, on a triangle from its corners: (1 - u - v)·a + u·b + v·c.
+    """On a sphere or a plane along the ray, on a triangle from its corners: (1 - u - v)·a + u·b + v·c.
 
     The weights are the products of Plücker coordinates of Embree's robust test (triangle_tests.pluecker_distance), over
     the sum of all three by a reciprocal: PlueckerHitM::finalize in kernels/geometry/triangle_intersector_pluecker.h.
@@ -127,6 +133,8 @@ def hit_point_by_moeller_trumbore(
     moved, in the triangle's plane, by what rounding does to the weights: WEIGHT_ROUNDOFFS.
     """
     triangle = triangle_of(scene, primitive)
+    if triangle < 0 and primitive >= rows_of(scene, SPHERE_RADIUS):
+        return along(origin, direction, distance)  # on a plane
     if triangle < 0:
         return as_put_back(scene, along(origin, direction, distance), distance, primitive)
     a, b, c = corners_of(scene, triangle)

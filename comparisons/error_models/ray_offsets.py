@@ -11,7 +11,8 @@ declared beside them for their sake are constants, whose values are given by `of
 
 from __future__ import annotations
 
-from math import inf, sqrt
+import sys
+from math import inf, isfinite, sqrt
 from typing import TYPE_CHECKING
 
 from flint import arb
@@ -20,10 +21,25 @@ from raytruth.comparisons.error_models.helpers import corners_of, largest_magnit
 from raytruth.reference_tracer.arithmetics.balls import stored_number
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.source.bounding_volume import certainly_less
-from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_RADIUS, number_of, vector_of
+from raytruth.reference_tracer.source.features import PLANES, SPHERES, TRIANGLES
+from raytruth.reference_tracer.source.plane import plane_distance
+from raytruth.reference_tracer.source.scene_data import (
+    PLANE_NORMAL,
+    PLANE_POINT,
+    SPHERE_CENTER,
+    SPHERE_RADIUS,
+    number_of,
+    vector_of,
+)
 from raytruth.reference_tracer.source.shadow import departure
 from raytruth.reference_tracer.source.sphere import distance_to_other_side, sphere_distance
-from raytruth.reference_tracer.source.traversal import is_occluded
+from raytruth.reference_tracer.source.traversal import (
+    NOTHING,
+    is_occluded,
+    nearest_plane,
+    nearest_sphere,
+    nearest_triangle,
+)
 from raytruth.reference_tracer.source.triangle import triangle_distance
 from raytruth.reference_tracer.source.vector import add, along, dot, subtract
 
@@ -43,6 +59,8 @@ shadow_shortening: Scalar = 0.0
 """The fraction of the light's distance that a shadow ray ends before the light."""
 shadow_tolerance: Scalar = 0.0
 """What is nearer than this to a shadow ray's start or end may be ignored, or not."""
+farthest_met: Scalar = 0.0
+"""What is farther than this from where a ray starts may be met or not, in a scene with infinite planes."""
 either_sign: Scalar = 0.0
 """Between -1 and 1: a comparison with 0 goes both ways."""
 
@@ -59,12 +77,15 @@ def offset_behaviour(error_model: ErrorModel) -> Behaviour:
     if not offset.excludes_surface:
         functions["distance_to_sphere"] = distance_to_any_sphere
         functions["distance_to_triangle"] = distance_to_any_triangle
+        functions["distance_to_plane"] = distance_to_any_plane
     elif offset.moves_rays and not offset.is_bound:
         functions["distance_to_other_side"] = distance_to_other_side_from_offset
         if error_model.sphere_test == "accurate":  # others say themselves when they test a sphere again
             functions["distance_to_sphere"] = distance_to_sphere_from_offset
     if error_model.shadow_shortening > 0.0:
         functions["shadow_ray_end"] = early_shadow_ray_end
+    if isfinite(error_model.farthest):
+        functions["nearest_hit"] = nearest_hit_within_reach
     if error_model.shadow_tolerance > 0.0:
         functions["is_shadowed"] = is_shadowed_within_tolerance
     constants = {
@@ -74,6 +95,7 @@ def offset_behaviour(error_model: ErrorModel) -> Behaviour:
         "minimum_distance": stored_number(offset.minimum_distance, bits),
         "shadow_shortening": stored_number(error_model.shadow_shortening, bits),
         "shadow_tolerance": stored_number(error_model.shadow_tolerance, bits),
+        "farthest_met": arb(min(error_model.farthest, sys.float_info.max)),  # not infinite: it is divided
         "either_sign": arb(0, 1),
     }
     return Behaviour(functions, (offset_length, comes_back), constants, "ray offsets")
@@ -154,6 +176,31 @@ def distance_to_any_triangle(scene: SceneData, origin: Vector, direction: Vector
     return inf
 
 
+def distance_to_any_plane(scene: SceneData, origin: Vector, direction: Vector, left: int, plane: int) -> Scalar:  # noqa: ARG001 - as above
+    """To the plane if it is not too near, also if the ray starts on it."""
+    skipped = minimum_distance / sqrt(dot(direction, direction))
+    point, normal = vector_of(scene, PLANE_POINT, plane), vector_of(scene, PLANE_NORMAL, plane)
+    distance = plane_distance(along(origin, direction, skipped), direction, point, normal)
+    if distance < inf:
+        return skipped + distance
+    return inf
+
+
+def nearest_hit_within_reach(scene: SceneData, origin: Vector, direction: Vector, left: int) -> tuple[Scalar, int]:
+    """The nearest primitive; where there are planes, it or nothing if that is too far away."""
+    nearest = inf
+    hit = NOTHING
+    if SPHERES:
+        nearest, hit = nearest_sphere(scene, origin, direction, left)
+    if TRIANGLES:
+        nearest, hit = nearest_triangle(scene, origin, direction, left, nearest, hit)
+    if PLANES:
+        nearest, hit = nearest_plane(scene, origin, direction, left, nearest, hit)
+        if hit != NOTHING and nearest * sqrt(dot(direction, direction)) > farthest_met and either_sign > 0.0:
+            return inf, NOTHING
+    return nearest, hit
+
+
 def early_shadow_ray_end() -> Scalar:
     """Before the light."""
     return 1.0 - shadow_shortening
@@ -162,19 +209,24 @@ def early_shadow_ray_end() -> Scalar:
 def is_shadowed_within_tolerance(
     scene: SceneData, primitive: int, point: Vector, normal: Vector, to_light: Vector, light_is_near: bool
 ) -> bool:
-    """Either way where only something very near to the point or to the light may throw a shadow."""
+    """Either way where only something very near to the point or to the light, or very far, may throw a shadow."""
     origin, left = departure(primitive, point, normal, to_light)
     skipped = (shadow_tolerance - minimum_distance) / sqrt(dot(to_light, to_light))
     later = along(origin, to_light, skipped)
+    reach = inf
+    if PLANES:
+        reach = farthest_met / sqrt(dot(to_light, to_light))
     if light_is_near:
         direction = subtract(add(point, to_light), origin)
         longest = is_occluded(scene, origin, direction, left, 1.0)
         end = 1.0 - shadow_tolerance / sqrt(dot(to_light, to_light)) - skipped
         # From the later start the way is shorter, but the direction has the same length.
+        if PLANES:
+            end = min(end, reach)
         shortest = is_occluded(scene, later, direction, left, end)
     else:
         longest = is_occluded(scene, origin, to_light, left, inf)
-        shortest = is_occluded(scene, later, to_light, left, inf)
+        shortest = is_occluded(scene, later, to_light, left, reach)
     if longest and not shortest:
         return either_sign > 0.0
     return longest

@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from raytruth.comparisons.error_models.error_model import RayOffset
-from raytruth.scenes.shapes import Sphere
+from raytruth.scenes.planes import has_planes
+from raytruth.scenes.shapes import Plane, Sphere
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.scenes.scene import Scene
+    from raytruth.scenes.shapes import Shape
+
+    Array = NDArray[np.float64]
 
 
 def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
-    """The error model without its shortcuts: rays start on the surface, shadow rays end at the light."""
-    return replace(error_model, ray_offset=RayOffset(), shadow_shortening=0.0, shadow_tolerance=0.0)
+    """The error model without its shortcuts: rays start on the surface and go any way, shadow rays end at the light."""
+    return replace(error_model, ray_offset=RayOffset(), shadow_shortening=0.0, shadow_tolerance=0.0, farthest=inf)
 
 
 def has_shortcuts(error_model: ErrorModel) -> bool:
-    """Whether it declares any: a ray offset, a least distance, shadow rays that end early or overlook what is near.
+    """Whether it declares any: a ray offset, a least distance, shadow rays that end early or overlook what is near, a
+    farthest distance.
 
     A surface that is tested as all others are, when a ray leaves it, is one, too.
     """
@@ -44,27 +52,32 @@ def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
     ]
     if error_model.shadow_shortening > 0.0:
         told.append(f"its shadow rays end {error_model.shadow_shortening:.2g} of the distance before the light")
+    if isfinite(error_model.farthest) and has_planes(scene):
+        told.append(f"it may miss what is farther than {error_model.farthest:.2g}, and planes are infinite")
     return ", ".join(told)
 
 
 def _largest_coordinate(scene: Scene) -> float:
-    """The largest absolute coordinate of any point that a ray may leave."""
-    reaches = [
-        np.abs(shape.center) + shape.radius if isinstance(shape, Sphere) else np.abs(shape.vertices)
-        for shape in scene.objects
-    ]
-    return max(float(np.max(reach)) for reach in reaches)
+    """The largest absolute coordinate of any point that a ray may leave; of infinite planes, of their stated point."""
+    return max(float(np.max(_reach(shape))) for shape in scene.objects)
+
+
+def _reach(shape: Shape) -> Array:
+    if isinstance(shape, Sphere):
+        return np.abs(shape.center) + shape.radius
+    return np.abs(shape.point if isinstance(shape, Plane) else shape.vertices)
 
 
 def _smallest(scene: Scene) -> tuple[float, str]:
-    """The smallest radius of a sphere or, where there are none, the shortest edge of a triangle."""
+    """The smallest radius of a sphere or, where there are none, the shortest edge of a triangle; else a unit."""
     radii = [shape.radius for shape in scene.objects if isinstance(shape, Sphere)]
     if radii:
         return min(radii), "the radius of the smallest sphere"
     edges = []
     for shape in scene.objects:
-        assert not isinstance(shape, Sphere), "there are none"
+        if isinstance(shape, Sphere | Plane):
+            continue
         vertices = np.array(shape.vertices)
         corners = vertices[np.array(shape.faces)] if shape.shape == "mesh" else vertices[np.newaxis]
         edges.append(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).min())
-    return float(min(edges)), "the shortest edge"
+    return (float(min(edges)), "the shortest edge") if edges else (1.0, "a unit of length")

@@ -23,7 +23,7 @@ from raytruth.reference_tracer.source.scene_data import SPHERE_CENTER, SPHERE_RA
 from raytruth.reference_tracer.source.sphere import distance_to_other_side, sphere_distance
 from raytruth.reference_tracer.source.traversal import NOTHING
 from raytruth.reference_tracer.source.vector import along, dot, subtract
-from raytruth.scenes.shapes import Sphere
+from raytruth.scenes.shapes import Plane, Sphere
 
 if TYPE_CHECKING:
     from raytruth.comparisons.error_models.error_model import ErrorModel
@@ -101,6 +101,8 @@ def _reach(scene: Scene) -> float:
     for shape in scene.objects:
         material = scene.materials[shape.material]
         if material.mirror or material.dielectric:
+            if isinstance(shape, Plane):
+                return inf
             starts += (
                 [(shape.center, shape.radius)] if isinstance(shape, Sphere) else [(c, 0.0) for c in shape.vertices]
             )

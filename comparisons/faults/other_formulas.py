@@ -106,6 +106,17 @@ def plane_then_edges(origin: Vector, direction: Vector, a: Vector, b: Vector, c:
     return t
 
 
+@variant("plane_distance")
+def plane_by_its_distance_from_the_origin(origin: Vector, direction: Vector, point: Vector, normal: Vector) -> Scalar:
+    """In Hesse's normal form, by the unit normal and how far the plane is from the origin along it."""
+    unit = normalize(normal)
+    slope = dot(direction, unit)
+    if slope == 0.0:
+        return inf
+    t = (dot(point, unit) - dot(origin, unit)) / slope
+    return t if t > 0.0 else inf
+
+
 @variant("mirror_direction")
 def reflection_by_parts(direction: Vector, normal: Vector) -> Vector:
     """The part along the surface is kept and the part along the normal turned round."""

@@ -5,7 +5,10 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import TYPE_CHECKING
 
+from raytruth.reference_tracer.source.plane import plane_distance
 from raytruth.reference_tracer.source.scene_data import (
+    PLANE_NORMAL,
+    PLANE_POINT,
     SPHERE_CENTER,
     SPHERE_RADIUS,
     TRIANGLE_A,
@@ -57,6 +60,16 @@ def triangle_not_too_near(scene: SceneData, origin: Vector, direction: Vector, l
         vector_of(scene, TRIANGLE_A, triangle),
         vector_of(scene, TRIANGLE_B, triangle),
         vector_of(scene, TRIANGLE_C, triangle),
+    )
+    if distance * sqrt(dot(direction, direction)) > 9.5367431640625e-07:
+        return distance
+    return inf
+
+
+def plane_not_too_near(scene: SceneData, origin: Vector, direction: Vector, left: int, plane: int) -> Scalar:
+    """To the plane if it is not too near, also if the ray starts on it."""
+    distance = plane_distance(
+        origin, direction, vector_of(scene, PLANE_POINT, plane), vector_of(scene, PLANE_NORMAL, plane)
     )
     if distance * sqrt(dot(direction, direction)) > 9.5367431640625e-07:
         return distance

@@ -8,10 +8,22 @@ from typing import TYPE_CHECKING
 from raytruth.comparisons.faults.edits import Edit, before
 from raytruth.comparisons.faults.fault import fault
 from raytruth.comparisons.faults.other_formulas import MOELLER_TRUMBORE
-from raytruth.reference_tracer.source.features import SPHERES, TRIANGLES
-from raytruth.reference_tracer.source.scene_data import SPHERE_MATERIAL, TRIANGLE_MATERIAL, SceneData, rows_of
+from raytruth.reference_tracer.source.features import PLANES, SPHERES, TRIANGLES
+from raytruth.reference_tracer.source.scene_data import (
+    PLANE_MATERIAL,
+    SPHERE_MATERIAL,
+    SceneData,
+    first_plane,
+    rows_of,
+)
 from raytruth.reference_tracer.source.shadow import shadow_ray_end
-from raytruth.reference_tracer.source.traversal import NOTHING, distance_to_sphere, distance_to_triangle, is_occluded
+from raytruth.reference_tracer.source.traversal import (
+    NOTHING,
+    distance_to_plane,
+    distance_to_sphere,
+    distance_to_triangle,
+    is_occluded,
+)
 from raytruth.reference_tracer.source.vector import add, along, dot, normalize, subtract
 
 if TYPE_CHECKING:
@@ -21,14 +33,18 @@ if TYPE_CHECKING:
 def each_primitive_asked(scene: SceneData, origin: Vector, direction: Vector, left: int, end: Scalar) -> bool:
     """The tracer's is_occluded without its tree: where some are left out, each primitive has to be asked."""
     spheres = rows_of(scene, SPHERE_MATERIAL)
-    for primitive in range(spheres + rows_of(scene, TRIANGLE_MATERIAL)):
+    planes = first_plane(scene)
+    for primitive in range(planes + rows_of(scene, PLANE_MATERIAL)):
         distance = inf
         if SPHERES:
             if primitive < spheres:
                 distance = distance_to_sphere(scene, origin, direction, left, primitive)
         if TRIANGLES:
-            if primitive >= spheres:
+            if primitive >= spheres and primitive < planes:
                 distance = distance_to_triangle(scene, origin, direction, left - spheres, primitive - spheres)
+        if PLANES:
+            if primitive >= planes:
+                distance = distance_to_plane(scene, origin, direction, left - planes, primitive - planes)
         if distance < end:
             return True
     return False
@@ -119,6 +135,11 @@ def emitters_throw_no_shadow() -> None:
 @fault("SHAD-3", "is_occluded", "Which kinds of objects does your shadow ray look at?", Edit("TRIANGLES", "False"))
 def triangles_throw_no_shadow() -> None:
     """Shadow rays look for spheres only."""
+
+
+@fault("SHAD-3", "is_occluded", "What does the light behind a wall do to the room?", Edit("PLANES", "False"))
+def planes_throw_no_shadow() -> None:
+    """Shadow rays do not look for planes, so lamps shine through walls."""
 
 
 @fault("SHAD-4", "departure", "Where does rounding put the start of the ray: before or behind the surface?")

@@ -64,6 +64,7 @@ def _ray_starts() -> list[Subject]:
     hits_later = {
         "distance_to_sphere": other_starts.sphere_not_too_near,
         "distance_to_triangle": other_starts.triangle_not_too_near,
+        "distance_to_plane": other_starts.plane_not_too_near,
     }
     return [
         _variant(

@@ -25,7 +25,7 @@ from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, INTERPRETED_
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.instantiation import functions_of
 from raytruth.reference_tracer.rendering import first_hits, prepare, primary_rays, render_prepared
-from raytruth.reference_tracer.source.scene_data import SPHERE_MATERIAL, TRIANGLE_MATERIAL
+from raytruth.reference_tracer.source.scene_data import PLANE_MATERIAL, SPHERE_MATERIAL, TRIANGLE_MATERIAL
 from raytruth.reference_tracer.source.traversal import NOTHING
 from raytruth.scenes.requirements import required_features
 
@@ -153,7 +153,9 @@ def _first_hits_of(scene: Scene, subject: Subject) -> FirstHits:
     depths, primitives = first_hits(prepare(scene, FLOAT, _behaviour(subject)))
     rays = Rays(*primary_rays(scene))
     position, normal = np.full((2, *rays.origins.shape), np.nan)
-    count = right.kernel.rows_of(right.data, SPHERE_MATERIAL) + right.kernel.rows_of(right.data, TRIANGLE_MATERIAL)
+    count = sum(
+        right.kernel.rows_of(right.data, table) for table in (SPHERE_MATERIAL, TRIANGLE_MATERIAL, PLANE_MATERIAL)
+    )
     for row, column in np.argwhere(primitives != NOTHING).tolist():
         origin, direction = rays.origins[row, column].tolist(), rays.directions[row, column].tolist()
         point = right.kernel.along(origin, direction, depths[row, column])

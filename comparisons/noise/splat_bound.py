@@ -24,6 +24,7 @@ from raytruth.reference_tracer.rendering import first_hits, prepare, primary_ray
 from raytruth.reference_tracer.tables import triangles_of
 from raytruth.scenes.lights import ConstantBackground, PointLight
 from raytruth.scenes.materials import Diffuse, colors_of
+from raytruth.scenes.planes import has_planes
 from raytruth.scenes.requirements import used_materials
 from raytruth.scenes.shapes import Sphere
 
@@ -41,11 +42,15 @@ GRID = 4
 
 
 def has_splat_bound(scene: Scene) -> bool:
-    """Whether a light path's splat has a bound: point lights, diffuse surfaces alone, and a perspective camera."""
+    """Whether a light path's splat has a bound: point lights, diffuse surfaces alone, and a perspective camera.
+
+    Of infinite planes none is claimed, since nobody who sends light has them.
+    """
     dark = isinstance(scene.background, ConstantBackground) and not any(scene.background.color)
     lights = all(isinstance(light, PointLight) and light.falloff == "inverse_square" for light in scene.lights)
     surfaces = all(_is_diffuse(material) for material in used_materials(scene))
-    return dark and lights and surfaces and scene.camera.projection == "perspective" and bool(scene.lights)
+    bounded = surfaces and not has_planes(scene)
+    return dark and lights and bounded and scene.camera.projection == "perspective" and bool(scene.lights)
 
 
 def largest_splats(scene: Scene) -> Array:

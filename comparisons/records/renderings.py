@@ -33,7 +33,7 @@ class FirstHits:
     normal: NDArray[np.float64]
     """The unit geometric normal as the shape defines it: outward, not turned to the viewer."""
     primitive: NDArray[np.int64]
-    """Spheres first, then triangles, in the order of the scene's objects; -1: nothing."""
+    """Spheres first, then triangles, then planes, in the order of the scene's objects; -1: nothing."""
 
 
 @dataclass(frozen=True)

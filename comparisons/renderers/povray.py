@@ -43,6 +43,8 @@ MINIMUM_DISTANCE = 1e-4 / LARGEST_UNIT
 # line 66, `TracePointLightShadowRay`), unless it threw the last one, too: then MIN_ISECT_DEPTH and 0 suffice.
 SHADOW_TOLERANCE = 1e-3 / LARGEST_UNIT
 LARGEST_EXTENT = FARTHEST / LARGEST_UNIT
+# Planes farther than FARTHEST are missed (shape/planes.cpp, `Plane::Intersect`). So are nearer ones that a ray meets at
+# a sine under EPSILON = 1e-10; such a ray starts within 1e-3 units of the plane, and that is not modelled.
 # Colours are float32 (COLC in base/types.h), and so are all numbers of a finish. On its way to the picture a colour is
 # rounded by at most 12 operations at the surface that is lit, 2 more a light, and 8 at each reflection or refraction:
 # weight, medium, product, sum, and the three of an average. That is under 2^7 for the 12 bounces that the exporter
@@ -71,6 +73,7 @@ class PovRay:
         ray_offset=RayOffset(minimum_distance=MINIMUM_DISTANCE, excludes_surface=False),
         shadow_tolerance=SHADOW_TOLERANCE,
         largest_extent=LARGEST_EXTENT,
+        farthest=LARGEST_EXTENT,
         index_bits=INDEX_BITS,
         # source/base/image/encoding.h, `IntEncode`: floor(clip(x, 0, 1)·65535 + 0.5).
         output=OutputModel("uint16", bracketed=True, color_error=COLOR_ERROR),

@@ -39,6 +39,7 @@ SOURCE_FILES = (
     "compensated",
     "sphere",
     "triangle",
+    "plane",
     "bounding_volume",
     "traversal",
     "background",

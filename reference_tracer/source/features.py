@@ -8,6 +8,7 @@ PERSPECTIVE: bool = True
 SPHERES: bool = True
 TRIANGLES: bool = True
 BOUNDING_VOLUMES: bool = True
+PLANES: bool = True
 BACKGROUND: bool = True
 BACKGROUND_GRADIENT: bool = True
 CHECKERBOARD: bool = True

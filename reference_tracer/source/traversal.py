@@ -1,7 +1,8 @@
 """What a ray meets first, and whether anything stands in its way (docs/spec.md, TRAV).
 
-Primitives are numbered: the spheres first, then the triangles. A ray that starts on a primitive names it as `left`, so
-that it cannot meet the same point again: a triangle is left out, of a sphere only the other side remains.
+Primitives are numbered: the spheres first, then the triangles, then the planes. A ray that starts on a primitive names
+it as `left`, so that it cannot meet the same point again: what is flat is left out, of a sphere only the other side
+remains.
 """
 
 from __future__ import annotations
@@ -10,7 +11,8 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from raytruth.reference_tracer.source.bounding_volume import box_is_missed
-from raytruth.reference_tracer.source.features import BOUNDING_VOLUMES, SPHERES, TRIANGLES
+from raytruth.reference_tracer.source.features import BOUNDING_VOLUMES, PLANES, SPHERES, TRIANGLES
+from raytruth.reference_tracer.source.plane import plane_distance, plane_normal
 from raytruth.reference_tracer.source.scene_data import (
     NODE_END,
     NODE_FIRST_TRIANGLE,
@@ -18,6 +20,9 @@ from raytruth.reference_tracer.source.scene_data import (
     NODE_LOW,
     NODE_ORDER,
     NODE_TRIANGLES,
+    PLANE_MATERIAL,
+    PLANE_NORMAL,
+    PLANE_POINT,
     SPHERE_CENTER,
     SPHERE_MATERIAL,
     SPHERE_RADIUS,
@@ -26,8 +31,10 @@ from raytruth.reference_tracer.source.scene_data import (
     TRIANGLE_C,
     TRIANGLE_MATERIAL,
     SceneData,
+    first_plane,
     integer_of,
     number_of,
+    plane_of,
     rows_of,
     vector_of,
 )
@@ -49,6 +56,8 @@ def nearest_hit(scene: SceneData, origin: Vector, direction: Vector, left: int) 
         nearest, hit = nearest_sphere(scene, origin, direction, left)
     if TRIANGLES:
         nearest, hit = nearest_triangle(scene, origin, direction, left, nearest, hit)
+    if PLANES:
+        nearest, hit = nearest_plane(scene, origin, direction, left, nearest, hit)
     return nearest, hit
 
 
@@ -115,6 +124,28 @@ def distance_to_triangle(scene: SceneData, origin: Vector, direction: Vector, le
     )
 
 
+def nearest_plane(
+    scene: SceneData, origin: Vector, direction: Vector, left: int, nearest: Scalar, hit: int
+) -> tuple[Scalar, int]:
+    """Distance and number of the nearest hit: `nearest` and `hit` so far, or those of a plane that is nearer."""
+    left_plane = plane_of(scene, left)
+    for plane in range(rows_of(scene, PLANE_MATERIAL)):
+        distance = distance_to_plane(scene, origin, direction, left_plane, plane)
+        if distance < nearest:
+            nearest = distance
+            hit = first_plane(scene) + plane
+    return nearest, hit
+
+
+def distance_to_plane(scene: SceneData, origin: Vector, direction: Vector, left: int, plane: int) -> Scalar:
+    """The distance to the plane of this number; infinity if the ray starts on it, which never meets it again."""
+    if plane == left:
+        return inf
+    return plane_distance(
+        origin, direction, vector_of(scene, PLANE_POINT, plane), vector_of(scene, PLANE_NORMAL, plane)
+    )
+
+
 def is_occluded(scene: SceneData, origin: Vector, direction: Vector, left: int, end: Scalar) -> bool:
     """Whether any primitive stands at 0 < t < end. Every surface occludes, transparent ones too."""
     if SPHERES:
@@ -123,12 +154,20 @@ def is_occluded(scene: SceneData, origin: Vector, direction: Vector, left: int, 
                 return True
     if TRIANGLES:
         _, hit = nearest_triangle(scene, origin, direction, left, end, NOTHING)
+        if hit != NOTHING:
+            return True
+    if PLANES:
+        _, hit = nearest_plane(scene, origin, direction, left, end, NOTHING)
         return hit != NOTHING
     return False
 
 
 def surface_normal(scene: SceneData, primitive: int, point: Vector) -> Vector:
     """The unit normal at a point of a primitive, as its shape defines it: not turned to the viewer."""
+    if PLANES:
+        plane = plane_of(scene, primitive)
+        if plane >= 0:
+            return plane_normal(vector_of(scene, PLANE_NORMAL, plane))
     spheres = rows_of(scene, SPHERE_MATERIAL)
     if SPHERES:
         if primitive < spheres:
@@ -147,6 +186,10 @@ def surface_normal(scene: SceneData, primitive: int, point: Vector) -> Vector:
 
 def material_of(scene: SceneData, primitive: int) -> int:
     """The row of the material tables that belongs to a primitive."""
+    if PLANES:
+        plane = plane_of(scene, primitive)
+        if plane >= 0:
+            return integer_of(scene, PLANE_MATERIAL, plane)
     spheres = rows_of(scene, SPHERE_MATERIAL)
     material = 0
     if primitive < spheres:

@@ -12,8 +12,9 @@ from raytruth.scenes.features import BACKGROUNDS, GEOMETRY, RADIOMETRIC_LIGHTS, 
 from raytruth.scenes.lights import PointLight
 from raytruth.scenes.materials import colors_of
 from raytruth.scenes.media import relative_index
+from raytruth.scenes.planes import refuses_planes
 from raytruth.scenes.requirements import required_features
-from raytruth.scenes.shapes import Mesh, Sphere
+from raytruth.scenes.shapes import Mesh, Plane, Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -46,6 +47,9 @@ UNSCALED = "Cycles does not scale radiance on refraction, which cancels only for
 
 def refuses(scene: Scene) -> str | None:
     """Why Cycles cannot express this scene, in one clause that follows 'because'; None if it can."""
+    without_planes = refuses_planes("Cycles", scene)
+    if without_planes:
+        return without_planes
     for light in scene.lights:
         if isinstance(light, PointLight) and light.falloff != "inverse_square":
             return "a point light of Cycles falls off with the inverse square of the distance and in no other way"
@@ -183,7 +187,7 @@ def _refuses_glass(scene: Scene) -> str | None:
     for shape in glass:
         dielectric = scene.materials[shape.material].dielectric
         assert dielectric is not None  # it is glass
-        assert not isinstance(shape, Sphere)  # refused before
+        assert not isinstance(shape, Sphere | Plane)  # refused before
         if dielectric.outside is not None or not _is_closed(shape):
             return UNSCALED
         if any(_boxes_overlap(_box(shape), _box(other)) for other in others):
@@ -204,6 +208,7 @@ def _box(shape: Shape) -> NDArray[np.float64]:
     """The lowest and the highest coordinates, shape (2, 3)."""
     if isinstance(shape, Sphere):
         return np.array([np.subtract(shape.center, shape.radius), np.add(shape.center, shape.radius)])
+    assert not isinstance(shape, Plane)  # refused before
     corners = np.array(shape.vertices)
     return np.array([corners.min(axis=0), corners.max(axis=0)])
 

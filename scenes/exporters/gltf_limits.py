@@ -9,6 +9,7 @@ import numpy as np
 from raytruth.scenes.exporters.triangle_soup import triangle_lists
 from raytruth.scenes.features import BACKGROUNDS, RADIOMETRIC_LIGHTS, TRIANGLE_GEOMETRY, Feature, missing_features
 from raytruth.scenes.lights import PointLight, shines
+from raytruth.scenes.planes import refuses_planes
 from raytruth.scenes.requirements import required_features, used_materials
 from raytruth.scenes.shapes import Sphere
 
@@ -28,6 +29,9 @@ def refuses(scene: Scene) -> str | None:
     """Why glTF cannot express this scene, in one clause that follows 'because'; None if it can."""
     if any(isinstance(shape, Sphere) for shape in scene.objects):
         return "glTF has no spheres, and triangles in their place would be other surfaces"
+    without_planes = refuses_planes("glTF", scene)
+    if without_planes:
+        return without_planes
     if any(isinstance(light, PointLight) and light.falloff != "inverse_square" for light in scene.lights):
         return "a point light of glTF falls off with the inverse square of the distance and in no other way"
     reasons = (_refuses_material(scene, material) for material in used_materials(scene))

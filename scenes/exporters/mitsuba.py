@@ -13,7 +13,7 @@ from raytruth.scenes.exporters.mitsuba_limits import refuses, reversed_primitive
 from raytruth.scenes.exporters.mitsuba_materials import add_bsdf, add_texture, checkerboard_of
 from raytruth.scenes.lights import GradientBackground, PointLight, shines
 from raytruth.scenes.requirements import used_materials
-from raytruth.scenes.shapes import Mesh, Sphere
+from raytruth.scenes.shapes import Mesh, Plane, Sphere
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -198,7 +198,7 @@ def _add_objects(root: Element, scene: Scene, folder: Path, material_ids: dict[s
 def _add_triangles(root: Element, scene: Scene, folder: Path, index: int, reverse: NDArray[np.bool_]) -> Element:
     """A triangle or a mesh, in a file of its own since Mitsuba has neither inline."""
     shape = scene.objects[index]
-    assert not isinstance(shape, Sphere)  # the caller has looked
+    assert not isinstance(shape, Sphere | Plane)  # the caller has looked
     vertices = np.array(shape.vertices, dtype=np.float64)
     faces = np.array(shape.faces if isinstance(shape, Mesh) else [(0, 1, 2)], dtype=np.int64)
     turned = faces.copy()

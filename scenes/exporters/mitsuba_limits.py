@@ -11,14 +11,16 @@ from raytruth.scenes.exporters.triangle_soup import triangles_of
 from raytruth.scenes.features import BACKGROUNDS, GEOMETRY, RADIOMETRIC_LIGHTS, Feature, missing_features
 from raytruth.scenes.lights import PointLight
 from raytruth.scenes.materials import CheckerboardColor, colors_of
+from raytruth.scenes.planes import refuses_planes
 from raytruth.scenes.requirements import required_features
-from raytruth.scenes.shapes import Mesh, Sphere, Triangle
+from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from raytruth.scenes.materials import Material
     from raytruth.scenes.scene import Scene
+    from raytruth.scenes.shapes import Shape
 
 # Mitsuba keeps coordinates in float32: what lies closer to a plane than half an ulp of them is on it.
 FLOAT32_ROUNDOFF = 2.0**-24
@@ -33,6 +35,9 @@ NO_ABSORPTION = "Mitsuba's direct and path integrators have no absorbing media"
 
 def refuses(scene: Scene) -> str | None:
     """Why Mitsuba cannot express this scene, in one clause that follows 'because'; None if it can."""
+    without_planes = refuses_planes("Mitsuba", scene)
+    if without_planes:
+        return without_planes
     for light in scene.lights:
         if isinstance(light, PointLight) and light.falloff != "inverse_square":
             return "a point light of Mitsuba falls off with the inverse square of the distance and in no other way"
@@ -112,7 +117,7 @@ def reversed_primitives(scene: Scene) -> NDArray[np.bool_]:
     return np.array(reverse, dtype=bool)
 
 
-def _is_emissive(scene: Scene, shape: Sphere | Triangle | Mesh) -> bool:
+def _is_emissive(scene: Scene, shape: Shape) -> bool:
     return scene.materials[shape.material].emission is not None
 
 

@@ -14,6 +14,7 @@ from raytruth.scenes.exporters.triangle_soup import triangle_lists
 from raytruth.scenes.features import Feature, missing_features
 from raytruth.scenes.lights import shines
 from raytruth.scenes.materials import CheckerboardColor
+from raytruth.scenes.planes import refuses_planes
 from raytruth.scenes.requirements import used_materials
 from raytruth.scenes.shapes import Sphere
 
@@ -36,6 +37,9 @@ def refuses(scene: Scene) -> str | None:
     """Why OBJ cannot express the objects of this scene, in one clause that follows 'because'; None if it can."""
     if any(isinstance(shape, Sphere) for shape in scene.objects):
         return "OBJ has no spheres, and triangles in their place would be other surfaces"
+    without_planes = refuses_planes("OBJ", scene)
+    if without_planes:
+        return without_planes
     reasons = (_refuses_material(material) for material in used_materials(scene))
     return next((reason for reason in reasons if reason), None)
 

@@ -8,6 +8,7 @@ from raytruth.scenes.features import GEOMETRY, RADIOMETRIC_LIGHTS, Feature, miss
 from raytruth.scenes.light_paths import comparable_depth
 from raytruth.scenes.lights import PointLight
 from raytruth.scenes.materials import CheckerboardColor, colors_of
+from raytruth.scenes.planes import refuses_planes
 from raytruth.scenes.requirements import required_features, used_materials
 
 if TYPE_CHECKING:
@@ -39,6 +40,9 @@ REFUSED_FEATURES = {
 
 def refuses(scene: Scene) -> str | None:
     """Why pbrt cannot express this scene, in one clause that follows 'because'; None if it can."""
+    without_planes = refuses_planes("pbrt", scene)
+    if without_planes:
+        return without_planes
     if any(isinstance(light, PointLight) and light.falloff != "inverse_square" for light in scene.lights):
         return "a point light of pbrt falls off with the inverse square of the distance and in no other way"
     required = required_features(scene)

@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.scenes.exporters.povray_limits import refuses, unit_of
+from raytruth.scenes.exporters.povray_limits import DEEPEST, FARTHEST, refuses, unit_of
 from raytruth.scenes.exporters.povray_materials import declare_material, fading, interior_of, polynomial_falloff
 from raytruth.scenes.exporters.povray_text import block, color, comment, vector
 from raytruth.scenes.extent import spans_of
 from raytruth.scenes.lights import ConstantBackground, PointLight
-from raytruth.scenes.shapes import Mesh, Sphere
+from raytruth.scenes.planes import has_planes
+from raytruth.scenes.shapes import Mesh, Plane, Sphere
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -26,6 +27,9 @@ SCENE_FILE = "scene.pov"
 HOLE_RADIUS = 5e-6
 # A parallel light of POV-Ray throws no shadows of what is behind its position: in radii of a ball around all objects.
 SUN_DISTANCE = 2.0
+# Infinite planes are in no ball. But each ray of a path meets what is within FARTHEST, the shadow ray at its end, too;
+# there are the camera's ray, as many as bounces, and one shadow ray. One more is left for the size of all else.
+SUN_DISTANCE_OVER_PLANES = (DEEPEST + 3) * FARTHEST
 
 HEADER = """\
 #version 3.7;
@@ -140,24 +144,38 @@ def _light(scene: Scene, light: Light) -> str:
     centers, radii = spans_of(scene)
     middle = centers.mean(axis=0)
     radius = float((np.linalg.norm(centers - middle, axis=1) + radii).max())
-    position = middle - SUN_DISTANCE * radius * np.array(light.direction) / np.linalg.norm(light.direction)
+    far = SUN_DISTANCE_OVER_PLANES / unit_of(scene) if has_planes(scene) else SUN_DISTANCE * radius
+    position = middle - far * np.array(light.direction) / np.linalg.norm(light.direction)
+    # What the light looks at is as far as it is, where it is so far that rounding its place would turn it else.
+    point_at = vector(middle) if has_planes(scene) else f"({vector(position)} + {vector(light.direction)})"
     lines = [f"{vector(position)}*unit, {color(light.irradiance)}*exposure", "parallel"]
-    lines.append(f"point_at ({vector(position)} + {vector(light.direction)})*unit")
+    lines.append(f"point_at {point_at}*unit")
     return block("light_source", *lines) + "\n"
 
 
 def _object(scene: Scene, shape: Shape, identifier: str) -> str:
     dielectric = scene.materials[shape.material].dielectric
     if dielectric is None or scene.max_depth == 0:
-        return _shape(shape, f"texture {{ {identifier} }}") + "\n"
+        return _shape(_facing_camera(scene, shape), f"texture {{ {identifier} }}") + "\n"
     glass = _glass(scene, shape, identifier, dielectric)
     return f"{glass}\n// Every surface throws a black shadow: this one does nothing else.\n{_shadow(scene, shape)}\n"
+
+
+def _facing_camera(scene: Scene, shape: Shape) -> Shape:
+    """An opaque plane, which looks alike from both sides, with its normal on that of the camera and so of all rays.
+
+    The other side is inside of it for POV-Ray, and a camera that is inside of an object is in its medium.
+    """
+    if isinstance(shape, Plane) and np.subtract(scene.camera.position, shape.point) @ np.array(shape.normal) < 0.0:
+        x, y, z = shape.normal
+        return shape.model_copy(update={"normal": (-x, -y, -z)})
+    return shape
 
 
 def _glass(scene: Scene, shape: Shape, identifier: str, dielectric: Dielectric) -> str:
     textures = f"texture {{ {identifier} }} interior_texture {{ {identifier}_inside }}"
     last = (textures, interior_of(dielectric), "hollow no_shadow")
-    holds_camera = scene.camera.inside == shape.material and not isinstance(shape, Sphere)
+    holds_camera = scene.camera.inside == shape.material and not isinstance(shape, Sphere | Plane)
     # Triangles have no inside. A sphere that no ray can see tells that the camera is inside of what they enclose.
     inside = "sphere { position*unit, 1 no_image no_reflection no_shadow }"
     return _shape(shape, *last, also=inside if holds_camera else "")
@@ -165,7 +183,7 @@ def _glass(scene: Scene, shape: Shape, identifier: str, dielectric: Dielectric) 
 
 def _shadow(scene: Scene, shape: Shape) -> str:
     shadow = "no_image no_reflection"
-    if isinstance(shape, Sphere) and scene.camera.inside == shape.material:
+    if isinstance(shape, Sphere | Plane) and scene.camera.inside == shape.material:
         # With a hole around the camera, which would be inside of two objects else.
         return block("difference", _shape(shape), f"sphere {{ position*unit, {HOLE_RADIUS!r} }}", shadow)
     return _shape(shape, shadow)
@@ -174,6 +192,10 @@ def _shadow(scene: Scene, shape: Shape) -> str:
 def _shape(shape: Shape, *last: str, also: str = "") -> str:
     if isinstance(shape, Sphere):
         return block("sphere", f"{vector(shape.center)}*unit, {shape.radius!r}*unit", *last)
+    if isinstance(shape, Plane):
+        # Its place is how far it is from the origin along the unit normal.
+        normal = f"vnormalize({vector(shape.normal)})"
+        return block("plane", f"{normal}, vdot({vector(shape.point)}, {normal})*unit", *last)
     corners = [shape.vertices]
     if isinstance(shape, Mesh):
         corners = [tuple(shape.vertices[index] for index in face) for face in shape.faces]

@@ -10,10 +10,10 @@ import numpy as np
 
 from raytruth.scenes.exporters.povray_materials import polynomial_falloff
 from raytruth.scenes.extent import extent_of
-from raytruth.scenes.features import BACKGROUNDS, FURTHER_RAYS, GEOMETRY, LIGHTS, LOCAL_TERMS, missing_features
+from raytruth.scenes.features import BACKGROUNDS, FURTHER_RAYS, GEOMETRY, LIGHTS, LOCAL_TERMS, Feature, missing_features
 from raytruth.scenes.media import relative_index
 from raytruth.scenes.requirements import required_features
-from raytruth.scenes.shapes import Mesh, Sphere
+from raytruth.scenes.shapes import Mesh, Plane, Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
     from raytruth.scenes.shapes import Shape
 
-EXPRESSES = GEOMETRY | BACKGROUNDS | LIGHTS | LOCAL_TERMS | FURTHER_RAYS
+EXPRESSES = GEOMETRY | {Feature.PLANES} | BACKGROUNDS | LIGHTS | LOCAL_TERMS | FURTHER_RAYS
 LARGEST_UNIT = 1024
 """POV-Ray's units in a unit of the scene, at most."""
 # POV-Ray meets nothing farther than this (MAX_DISTANCE in source/backend/configbackend.h of version 3.7.0.10).
@@ -112,7 +112,7 @@ def _refuses_dielectric(scene: Scene, dielectric: Dielectric) -> str | None:
 
 def _refuses_shape(shape: Shape) -> str | None:
     """Only what has an inside can have a medium."""
-    if isinstance(shape, Sphere):
+    if isinstance(shape, Sphere | Plane):
         return None
     if not isinstance(shape, Mesh) or not _is_closed(shape):
         return "a dielectric is not a closed mesh, and POV-Ray takes the medium from what a ray has passed before"
@@ -133,7 +133,9 @@ def _is_closed(mesh: Mesh) -> bool:
 
 
 def _box(shape: Shape) -> NDArray[np.float64]:
-    """Lowest and highest corner, shape (2, 3)."""
+    """Lowest and highest corner, shape (2, 3); an infinite plane is everywhere."""
+    if isinstance(shape, Plane):
+        return np.array([[-np.inf] * 3, [np.inf] * 3])
     if isinstance(shape, Sphere):
         return np.array([np.array(shape.center) - shape.radius, np.array(shape.center) + shape.radius])
     points = np.array(shape.vertices)
@@ -177,6 +179,9 @@ def _around_camera(scene: Scene) -> Iterator[Shape]:
         if isinstance(shape, Sphere):
             if np.linalg.norm(position - shape.center) <= shape.radius:
                 yield shape
+        elif isinstance(shape, Plane):
+            if np.subtract(position, shape.point) @ np.array(shape.normal) <= 0.0:
+                yield shape
         elif isinstance(shape, Mesh):
             low, high = _box(shape)
             if (low <= position).all() and (position <= high).all():
@@ -184,7 +189,9 @@ def _around_camera(scene: Scene) -> Iterator[Shape]:
 
 
 def _meets_plane(scene: Scene, shape: Shape) -> bool:
-    """Whether the plane in which parallel rays start may cut the object."""
+    """Whether the plane in which parallel rays start may cut the object; nothing is known of infinite planes."""
+    if isinstance(shape, Plane):
+        return True
     forward = np.subtract(scene.camera.look_at, scene.camera.position)
     low, high = _box(shape)
     heights = [

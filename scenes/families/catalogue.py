@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from raytruth.scenes.families import contacts, drawn, lights, optics, sizes
+from raytruth.scenes.families import contacts, drawn, lights, optics, planes, sizes
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -54,6 +54,9 @@ FAMILIES: dict[str, Family] = {
     "camera-near-surface": Family(
         contacts.camera_near_surface, (0.0, *_both_signs(2 * ULP, 1e-12, 1e-6)), frozenset({0.0, 2 * ULP, -2 * ULP})
     ),
+    "camera-near-plane": Family(planes.camera_near_plane, (0.0, *_both_signs(1e-12, 1e-6, 1.0)), frozenset({0.0})),
+    "grazing-plane": Family(planes.grazing_plane, _powers(0, -2, -4, -6)),
+    "plane-stated-from-afar": Family(planes.plane_stated_from_afar, _powers(0, 3, 6, 9)),
     "light-near-surface": Family(lights.light_near_surface, (0.0, *_both_signs(1e-12, 1e-6, 1e-2)), frozenset({0.0})),
     "light-inside-sphere": Family(lights.light_inside_sphere, (0.0, 0.5, 1 - 1e-6, 1 - 1e-12)),
     "light-inside-tetrahedron": Family(

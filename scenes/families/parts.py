@@ -43,6 +43,11 @@ def triangle(material: str, a: Point, b: Point, c: Point) -> Part:
     return {"shape": "triangle", "vertices": (a, b, c), "material": material}
 
 
+def plane(material: str, point: Point, normal: Point) -> Part:
+    """An infinite plane."""
+    return {"shape": "plane", "point": point, "normal": normal, "material": material}
+
+
 def quadrilateral(material: str, a: Point, b: Point, c: Point, d: Point) -> Part:
     """Two triangles that share the edge from a to c."""
     return {"shape": "mesh", "vertices": (a, b, c, d), "faces": ((0, 1, 2), (0, 2, 3)), "material": material}

@@ -79,6 +79,15 @@ def beside_a_wall(height: float) -> Scene:
     return Scene.model_validate(scene)
 
 
+def far_plane() -> Scene:
+    """One that shines, seen at a sine of about 1/20,000 through a long lens: farther than POV-Ray meets anything."""
+    plane = {"shape": "plane", "point": [3, 0, 7], "normal": [0, 2, 0], "material": "grey"}
+    scene = _lit([plane]).model_dump(mode="json")
+    scene["camera"] |= {"position": [0, 1, 0], "look_at": [0, 0, -2e4], "vertical_field_of_view": 1e-3}
+    scene["materials"]["grey"] = {"emission": {"radiance": [0.7, 0.6, 0.5]}}
+    return Scene.model_validate(scene)
+
+
 def single_triangle() -> Scene:
     """One that no axis is parallel to."""
     vertices = [[-2.1, 0, -1.1], [2.3, 0.2, -1.3], [0.1, 0.3, 1.7]]

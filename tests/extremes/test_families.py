@@ -125,6 +125,35 @@ def test_a_camera_on_or_in_a_surface_sees_its_far_side_and_one_outside_its_near_
     assert (image > 0).all() if parameter <= 0 else not image.any()
 
 
+@pytest.mark.clause("PLANE-2", "PLANE-3")
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("parameter", parameters_of("camera-near-plane"))
+def test_a_plane_fills_half_of_what_is_seen_from_beside_it_and_nothing_from_within(parameter: float, seed: int) -> None:
+    _, primitives = first_hits(prepare(family("camera-near-plane", parameter, seed), FLOAT))
+    if parameter != 0:
+        rows = primitives.any(axis=1).tolist()  # -1: the background
+        assert rows == ([True] * 6 + [False] * 6 if parameter > 0 else [False] * 6 + [True] * 6)
+    elif seed == 0:
+        assert (primitives == -1).all()
+
+
+@pytest.mark.clause("PLANE-1")
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("parameter", parameters_of("grazing-plane"))
+def test_a_floor_is_seen_at_any_sine_down_to_its_horizon(parameter: float, seed: int) -> None:
+    _, primitives = first_hits(prepare(family("grazing-plane", parameter, seed), FLOAT))
+    assert (primitives >= 0).all()
+
+
+@pytest.mark.clause("PLANE-1")
+@pytest.mark.parametrize("seed", SEEDS)
+def test_any_point_of_a_plane_states_it(seed: int) -> None:
+    near, *others = (feasible_of("plane-stated-from-afar", parameter, seed) for parameter in (1.0, 1e3, 1e6, 1e9))
+    for far in others:
+        assert distances_in_tolerances(image_of("plane-stated-from-afar", 1.0, seed), far).max() <= 1
+    assert distances_in_tolerances(image_of("plane-stated-from-afar", 1e3, seed), near).max() <= 1
+
+
 @pytest.mark.clause("SHAD-5")
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("parameter", parameters_of("light-near-surface"))

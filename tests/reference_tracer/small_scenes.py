@@ -35,6 +35,11 @@ def square(material: str, z: float, half: float = 100.0) -> dict[str, Any]:
     return {"shape": "mesh", "vertices": corners, "faces": ((0, 1, 2), (0, 2, 3)), "material": material}
 
 
+def plane(material: str, z: float, length: float = 1.0) -> dict[str, Any]:
+    """Without end, at the given z, with a normal of this length along +z."""
+    return {"shape": "plane", "point": (3.0, -2.0, z), "normal": (0.0, 0.0, length), "material": material}
+
+
 def lamp(position: tuple[float, float, float], intensity: float = 1.0, falloff: Any = "none") -> dict[str, Any]:
     return {"kind": "point", "position": position, "intensity": (intensity,) * 3, "falloff": falloff}
 

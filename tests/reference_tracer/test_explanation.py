@@ -21,6 +21,8 @@ SCENES = (
     "blinn-sphere",
     "self-shadowing-ring",
     "parallel-projection",
+    "mirror-room-of-planes",
+    "half-space-of-water",
 )
 
 
@@ -112,6 +114,14 @@ def test_a_shadow_names_the_primitive_and_the_object_in_the_way(name: str, x: in
     assert term.occluder != tree.rays[0].hit.primitive
     assert scene.objects[term.occluder_object].shape == shape
     assert term.radiance == (0, 0, 0)
+
+
+def test_a_wall_that_hides_a_lamp_is_named_among_planes_too() -> None:
+    # The floor, object 1, is seen where the lamp behind the wall, object 2, would light it; after one sphere.
+    tree = explain(open_scene("mirror-room-of-planes"), 70, 60)
+    assert tree.rays[0].hit is not None
+    assert tree.rays[0].hit.primitive == 1
+    assert (tree.rays[0].lights[1].occluder, tree.rays[0].lights[1].occluder_object) == (2, 2)
 
 
 def test_lights_keep_their_numbers_whatever_their_kinds() -> None:

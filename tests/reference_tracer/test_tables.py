@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64
+from raytruth.reference_tracer.numbering import objects_of_primitives
 from raytruth.reference_tracer.source import scene_data as layout
 from raytruth.reference_tracer.tables import build_tables, material_number, triangles_of
 from raytruth.scenes.features import Feature
 from raytruth.scenes.requirements import required_features
-from tests.reference_tracer.small_scenes import lamp, small_scene, sphere, square
+from tests.reference_tracer.small_scenes import lamp, plane, small_scene, sphere, square
 
 if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
@@ -48,6 +49,21 @@ def test_spheres_and_triangles_keep_their_order() -> None:
     assert materials == ["white", "white"]
 
 
+@pytest.mark.clause("TRAV-2")
+def test_planes_come_last_wherever_the_scene_states_them() -> None:
+    scene = mixed_scene()
+    objects = [plane("white", -7.0, -2.0), *mixed_scene().model_dump()["objects"], plane("glass", -9.0, 0.5)]
+    with_planes = type(scene).model_validate(scene.model_dump(exclude={"name"}) | {"objects": objects})
+    data = tables_of(with_planes)
+    assert layout.first_plane(data) == 4
+    assert [layout.plane_of(data, primitive) for primitive in (-1, 0, 3, 4, 5)] == [-5, -4, -1, 0, 1]
+    assert [layout.vector_of(data, layout.PLANE_POINT, row)[2] for row in range(2)] == [-7.0, -9.0]
+    assert [layout.vector_of(data, layout.PLANE_NORMAL, row) for row in range(2)] == [(0, 0, -2), (0, 0, 0.5)]
+    assert [layout.integer_of(data, layout.PLANE_MATERIAL, row) for row in range(2)] == [2, 0]
+    assert triangles_of(with_planes)[1] == ["white", "white"]
+    assert objects_of_primitives(with_planes) == [2, 3, 1, 1, 0, 4]
+
+
 @pytest.mark.clause("REFR-1")
 def test_media_know_what_is_outside_of_them() -> None:
     data = tables_of(mixed_scene())
@@ -78,7 +94,7 @@ def test_only_what_the_scene_requires_is_stored() -> None:
     absent = [
         name
         for name in vars(layout)
-        if name.startswith(("TRIANGLE_", "NODE_", "CHECKERBOARD_", "SUN_", "AMBIENT_", "BACKGROUND_"))
+        if name.startswith(("TRIANGLE_", "PLANE_", "NODE_", "CHECKERBOARD_", "SUN_", "AMBIENT_", "BACKGROUND_"))
         or (name.startswith("MATERIAL_") and not name.startswith(("MATERIAL_IS_LIT", "MATERIAL_DIFFUSE")))
     ]
     assert len(absent) > 30

@@ -26,7 +26,7 @@ pytestmark = pytest.mark.clause("ARI-3")
 
 DECIDING = {*COMPARISONS.values(), "floor"}
 # Their comparisons are of numbers of primitives, materials and rays, which are whole and so always decided.
-OF_WHOLE_NUMBERS = {"distance_to_sphere", "material_of", "radiance", "surface_normal", "textured"}
+OF_WHOLE_NUMBERS = {"distance_to_plane", "distance_to_sphere", "material_of", "radiance", "surface_normal", "textured"}
 # Balls replace these by functions that are True only where it is certain (test below).
 REPLACED = {"certainly_less", "certainly_zero"}
 

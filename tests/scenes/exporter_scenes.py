@@ -14,6 +14,7 @@ BOARD = {"checkerboard": {"even": (2.0, 0.1, 0.1), "odd": (0.1, 0.1, 0.2), "size
 POINT = {"kind": "point", "position": (1.0, 2.0, 3.0), "intensity": (9.0, 8.0, 7.0), "falloff": "inverse_square"}
 SUN = {"kind": "directional", "direction": (0.0, -1.0, 0.0), "irradiance": (1.0, 1.0, 1.0)}
 BALL = {"shape": "sphere", "center": (0.1, 0.2, 0.3), "radius": 1.1, "material": "m"}
+PLANE = {"shape": "plane", "point": (0.3, -1.0, 0.2), "normal": (0.0, 2.0, 0.0), "material": "m"}
 # Seen from (0, 1, 5), which is on the side of its normal, +y.
 FLOOR = {"shape": "triangle", "vertices": ((-5.0, -1.0, -5.0), (0.0, -1.0, 5.0), (5.0, -1.0, -5.0)), "material": "m"}
 

@@ -10,10 +10,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from raytruth.scenes.exporters.povray import export_povray, options_of
+from raytruth.scenes.exporters.povray_limits import DEEPEST, FARTHEST, unit_of
 from raytruth.scenes.exporters.povray_materials import fading
 from raytruth.scenes.exporters.povray_text import block, comment, vector
 from raytruth.scenes.lights import PolynomialFalloff
-from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
+from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, LAMP, MIRROR, PLANE, POINT, RED, SUN, build
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -130,3 +131,31 @@ def test_an_attenuation_with_linear_term_or_cut_off_at_1_is_none_of_povrays_own(
     assume(constant + linear + quadratic > 0)
     its_own = linear == 0 and constant >= 1 and quadratic > 0
     assert (fading(PolynomialFalloff(constant=constant, linear=linear, quadratic=quadratic)) is not None) == its_own
+
+
+def test_a_plane_is_its_unit_normal_and_its_distance_along_it(tmp_path: Path) -> None:
+    text = export(tmp_path, objects=[PLANE])
+    normal = "vnormalize(<0.0, 2.0, 0.0>)"
+    assert f"{normal}, vdot(<0.3, -1.0, 0.2>, {normal})*unit" in text
+
+
+def test_over_planes_the_sun_stands_behind_all_that_shadow_rays_may_meet(tmp_path: Path) -> None:
+    def sun_of(text: str) -> float:
+        found = re.search(r"light_source {\s+<([^>]*)>\*unit", text)
+        assert found is not None
+        return float(found[1].split(",")[1])
+
+    assert sun_of(export(tmp_path, objects=[BALL], lights=[SUN])) < 10
+    over_plane = export(tmp_path, objects=[BALL, PLANE], lights=[SUN])
+    # As many rays of the farthest distance one after the other as there may be, and one more.
+    assert sun_of(over_plane) > (DEEPEST + 2) * FARTHEST / unit_of(build(objects=[BALL, PLANE], lights=[SUN]))
+    assert "point_at <0.2, -0.4, 0.25>*unit" in over_plane
+
+
+def test_an_opaque_plane_has_the_camera_outside_and_one_of_glass_keeps_its_normal(tmp_path: Path) -> None:
+    away = PLANE | {"normal": (0.0, -2.0, 0.0)}
+    assert "plane {\n  vnormalize(<-0.0, 2.0, -0.0>)" in export(tmp_path, objects=[away])
+    camera = build().camera.model_dump() | {"inside": "m"}
+    assert "plane {\n  vnormalize(<0.0, -2.0, 0.0>)" in export(
+        tmp_path, objects=[away], camera=camera, materials={"m": GLASS}, max_depth=1
+    )

@@ -8,7 +8,7 @@ import pytest
 
 from raytruth.scenes.exporters.povray_limits import FARTHEST, LARGEST_UNIT, refuses, unit_of
 from raytruth.scenes.extent import extent_of
-from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, MIRROR, POINT, RED, SUN, build
+from tests.scenes.exporter_scenes import BALL, FLOOR, GLASS, MIRROR, PLANE, POINT, RED, SUN, build
 
 pytestmark = pytest.mark.clause("REN-3")
 
@@ -51,6 +51,10 @@ def glass(**changes: Any) -> dict[str, Any]:
         (glass(objects=[BALL, TETRAHEDRON]), "overlap"),
         (glass(objects=[BALL | {"center": (0.0, 1.0, 5.2)}]), "camera may be inside"),
         (glass(camera=CAMERA | {"inside": "m"}), "camera's medium"),
+        (glass(objects=[BALL, PLANE]), "overlap"),
+        (glass(objects=[PLANE | {"normal": (0.0, -1.0, 0.0)}]), "camera may be inside"),
+        (glass(objects=[PLANE], camera=CAMERA | {"inside": "m"}), "camera's medium"),
+        (glass(camera=PARALLEL, objects=[PLANE]), "parallel rays"),
         (glass(camera=PARALLEL, objects=[BALL | {"center": (9.0, 1.0, 5.0)}]), "parallel rays"),
     ],
 )
@@ -122,3 +126,15 @@ def test_the_unit_is_the_largest_power_of_two_with_which_all_is_near_enough(radi
 def test_the_usual_ground_sphere_is_not_refused() -> None:
     ground = BALL | {"center": (0.0, -1000.0, 0.0), "radius": 1000.0}
     assert refuses(build(objects=[BALL, ground], lights=[POINT, SUN])) is None
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"objects": [PLANE, BALL], "lights": [POINT, SUN]},
+        glass(objects=[PLANE]),
+        glass(objects=[PLANE | {"normal": (0.0, -1.0, 0.0)}], camera=CAMERA | {"inside": "m"}),
+    ],
+)
+def test_planes_are_expressed_also_of_glass_and_from_within(changes: dict[str, Any]) -> None:
+    assert refuses(build(**changes)) is None

@@ -12,8 +12,9 @@ from raytruth.export_command import FORMATS
 from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.lights import PointLight
+from raytruth.scenes.planes import has_planes
 from raytruth.scenes.requirements import required_features, used_materials
-from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR, POINT, SUN, build
+from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR, PLANE, POINT, SUN, build
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,6 +28,7 @@ DOCUMENT = (Path(__file__).parent.parent.parent / "docs" / "exporting.md").read_
 # What a refusal names, and whether a scene has it.
 NAMED: dict[str, Callable[[Scene], bool]] = {
     "spheres": lambda scene: Feature.SPHERES in required_features(scene),
+    "planes": has_planes,
     "falls off": lambda scene: any(
         isinstance(light, PointLight) and light.falloff != "inverse_square" for light in scene.lights
     ),
@@ -98,6 +100,7 @@ AMBIENT = WHITTED | {"ambient_light": (1.0, 1.0, 1.0)} | material(ambient={"refl
 ROWS: dict[str, tuple[dict[str, Any], str]] = {
     "triangles, meshes": ({}, "triangles"),
     "spheres": ({"objects": [BALL]}, "spheres"),
+    "infinite planes": ({"objects": [PLANE]}, "planes"),
     "perspective camera": ({}, "camera"),
     "orthographic camera": ({"camera": ORTHOGRAPHIC}, "camera"),
     "image size, `max_depth`": ({}, "max_depth"),

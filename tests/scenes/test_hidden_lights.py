@@ -147,3 +147,10 @@ def test_nothing_hides_by_a_triangle_without_area() -> None:
 def test_of_too_many_triangles_nothing_is_proved() -> None:
     assert f"more than {MOST_TRIANGLES}" in str(may_be_hidden(open_scene("trefoil-knot")))
     assert may_be_hidden(open_scene("cornell-box")) is not None
+
+
+def test_nothing_is_proved_of_planes() -> None:
+    plane = {"shape": "plane", "point": (0.0, -1.0, 0.0), "normal": (0.0, 1.0, 0.0), "material": "m"}
+    told = may_be_hidden(build(convention="whitted", objects=[triangle(FLOOR), plane], lights=[point(0.0, 3.0, 0.0)]))
+    assert told is not None
+    assert "planes" in told

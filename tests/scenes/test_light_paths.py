@@ -197,6 +197,39 @@ def test_triangles_of_one_plane_do_not_see_each_other(objects: list[dict[str, An
     assert isinstance(path(scene(*objects, ball("mirror", 4.0), max_depth=1)), str) == sees_diffuse
 
 
+def plane(material: str, normal: tuple[float, float, float], y: float = -2.0) -> dict[str, Any]:
+    return {"shape": "plane", "point": (0.3, y, 0.7), "normal": normal, "material": material}
+
+
+UP = (0.0, 3.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("others", "sees_diffuse"),
+    [
+        ([], False),  # no plane sees itself
+        ([plane("red", (0.0, -1.0, 0.0))], False),  # the same plane, whichever way its normal points
+        ([plane("red", (0.1, -1.0, 0.0))], True),  # a plane that crosses it
+        ([plane("red", UP, y=-1.0)], True),  # a parallel one
+        ([floor("red")], False),  # what lies in it
+        ([floor("red", y=-1.0)], True),
+        ([triangle("red", *TILTED)], True),
+        ([ball("red")], True),
+    ],
+)
+@pytest.mark.parametrize("first", ["red", "mirror"])
+def test_a_plane_sees_what_is_not_in_it(others: list[dict[str, Any]], first: str, *, sees_diffuse: bool) -> None:
+    graph = _Graph(scene(plane(first, UP), *others))
+    assert not graph.sees[0][0]
+    assert any(graph.sees[0][1:]) == sees_diffuse
+    assert [graph.sees[0][j] for j in range(len(others) + 1)] == [graph.sees[j][0] for j in range(len(others) + 1)]
+
+
+@pytest.mark.parametrize(("y", "inside"), [(-2.0, False), (-1.0, True), (0.5, True), (3.0, False)])
+def test_a_sphere_sees_itself_where_a_plane_cuts_it(y: float, *, inside: bool) -> None:
+    assert _Graph(scene(ball("red"), plane("red", UP, y))).sees[0][0] == inside
+
+
 def test_a_mesh_that_is_flat_does_not_see_itself_and_others_may() -> None:
     corners = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 0.0, 1.0), (0.0, 0.0, 1.0)]
     flat = {"shape": "mesh", "vertices": corners, "faces": [(0, 1, 2), (0, 2, 3)], "material": "red"}

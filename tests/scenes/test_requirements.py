@@ -7,7 +7,7 @@ import pytest
 from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.requirements import TRIANGLES_WITHOUT_TREE, required_features, used_materials
-from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR, POINT, RED, SUN, build
+from tests.scenes.exporter_scenes import BALL, BOARD, FLOOR, GLASS, LAMP, MIRROR, PLANE, POINT, RED, SUN, build
 
 if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
@@ -52,6 +52,8 @@ CASES = [
     (scene(background={"bottom": (0.0,) * 3, "top": (1.0,) * 3}), LIT_SPHERE | {Feature.BACKGROUND_GRADIENT}),
     (scene(objects=[FLOOR]), LIT_SPHERE - {Feature.SPHERES} | {Feature.TRIANGLES}),
     (scene(objects=[FLOOR, BALL]), LIT_SPHERE | {Feature.TRIANGLES}),
+    (scene(objects=[PLANE]), LIT_SPHERE - {Feature.SPHERES} | {Feature.PLANES}),
+    (scene(objects=[PLANE, FLOOR, BALL]), LIT_SPHERE | {Feature.PLANES, Feature.TRIANGLES}),
     (material(RED, AMBIENT, ambient_light=(0.0, 0.1, 0.0)), LIT_SPHERE | {Feature.AMBIENT}),
     (material(RED, AMBIENT), LIT_SPHERE),
     (material(RED, ambient_light=(0.1, 0.1, 0.1)), LIT_SPHERE),

@@ -18,6 +18,16 @@ OBJECT = {"shape": "sphere", "center": [0, 0, 0], "radius": 1, "material": "red"
 @pytest.mark.parametrize(
     ("place", "value", "sentence"),
     [
+        (
+            ("objects", 0),
+            {"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 0], "material": "red"},
+            "objects[0].normal: expected a vector that is not zero, since it gives a direction.",
+        ),
+        (
+            ("objects", 0),
+            {"shape": "plane", "point": [0, 0], "normal": [0, 1e-20, 0], "material": "red", "radius": 1},
+            "objects[0].normal: expected a vector longer than 1e-18, since it gives a direction.",
+        ),
         (("purpose",), "", "purpose: expected a text that is not empty, found ''."),
         (("convention",), "phong", "convention: expected 'whitted' or 'radiometric', found 'phong'."),
         (("max_depth",), -1, "max_depth: expected a number of at least 0, found -1."),
@@ -126,7 +136,7 @@ OBJECT = {"shape": "sphere", "center": [0, 0, 0], "radius": 1, "material": "red"
         (
             ("objects", 0),
             {"center": [0, 0, 0]},
-            "objects[0]: expected a key 'shape' with one of 'mesh', 'sphere', 'triangle', found no such key.",
+            "objects[0]: expected a key 'shape' with one of 'mesh', 'plane', 'sphere', 'triangle', found no such key.",
         ),
         (("objects", 2, "faces", 0, 1), -1, "objects[2].faces[0][1]: expected a number of at least 0, found -1."),
         (("objects", 2, "faces", 0, 1), 0.5, "objects[2].faces[0][1]: expected a whole number, found 0.5."),

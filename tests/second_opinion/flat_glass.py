@@ -40,6 +40,43 @@ def glass_slab(numbers: Random) -> Case:
     return _slab(numbers, {"absorption": make.color(numbers)}, "radiometric", weights)
 
 
+def half_space_of_water(numbers: Random) -> Case:
+    """R·(sky above) + (1 - R)·exp(-σ·a/cos t)·(glow of the ground): the surface z = 0, and a ground z = -a below it.
+
+    The plane's normal points up and has any length, so that the water is below (Whitted's convention, without 1/η²).
+    """
+    index, depth, absorption = numbers.uniform(1.1, 2.6), numbers.uniform(0.2, 2), make.color(numbers)
+    glow, sky = make.color(numbers), make.sky(numbers)
+    position = (*make.anywhere(numbers)[:2], numbers.uniform(1, 3))
+    look_at = (*(position[axis] + numbers.uniform(-0.7, 0.7) * position[2] for axis in range(2)), 0.0)
+    surface = {"shape": "plane", "point": (*make.anywhere(numbers)[:2], 0.0), "material": "water"}
+    ground = {"shape": "plane", "point": (*make.anywhere(numbers)[:2], -depth), "material": "ground"}
+    scene = make.build(
+        make.perspective(numbers, position, look_at, 40.9),
+        {
+            "water": {"dielectric": {"index_of_refraction": index, "absorption": absorption}},
+            "ground": {"emission": {"radiance": glow}},
+        },
+        [
+            surface | {"normal": (0.0, 0.0, numbers.uniform(0.01, 9))},
+            ground | {"normal": (0.0, 0.0, numbers.choice((-1, 1)) * numbers.uniform(0.01, 9))},
+        ],
+        convention="whitted",
+        background=sky,
+        max_depth=1,
+    )
+
+    def radiance(x: float, y: float) -> Vector:
+        _, direction = camera_ray(scene.camera, x, y)
+        incident = mp.acos(-direction[2])
+        refracted = mp.asin(mp.sin(incident) / index)
+        reflected = fresnel(incident, refracted)
+        below = by_channel(faded(absorption, depth / mp.cos(refracted)), exact(glow))
+        return combined((reflected, gradient(sky["bottom"], sky["top"], direction[1])), (1 - reflected, below))
+
+    return make.case(numbers, scene, radiance)
+
+
 def slab_of_constant_weights(numbers: Random) -> Case:
     """The same plate in Whitted's convention: ks in place of R and kt in place of 1 - R (Whitted 1980, eq. 2)."""
     reflectance, transmittance = make.color(numbers), make.color(numbers)

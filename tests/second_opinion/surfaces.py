@@ -167,6 +167,43 @@ def lit_triangle(numbers: Random) -> Case:
     return make.case(numbers, scene, radiance)
 
 
+def lit_plane(numbers: Random) -> Case:
+    """A Lambertian plane in any position under a point light: L = ρ/π · I · h/d³ if light and eye are on one side.
+
+    Of two points at heights h₀ and h₁ the line through them meets the plane at (h₁·P₀ - h₀·P₁)/(h₁ - h₀), which is
+    ahead of the eye P₀ if P₁, a step ahead of it, is lower; heights are those above the plane, by its unit normal.
+    """
+    point, across = make.anywhere(numbers), make.around(numbers, (0.0, 0.0, 0.0), 0.1, 30)
+    light, intensity = make.around(numbers, point, 0.5, 4), make.color(numbers, 5, 50)
+    reflectance, sky = make.color(numbers), make.sky(numbers)
+    eye = make.around(numbers, point, 1, 5)
+    scene = make.build(
+        make.perspective(numbers, eye, make.around(numbers, point, 0, 2), 61.3),
+        {"matt": {"diffuse": {"reflectance": reflectance}}},
+        [{"shape": "plane", "point": point, "normal": across, "material": "matt"}],
+        lights=[make.point_light(light, intensity)],
+        background=sky,
+    )
+
+    def height(of: Vector) -> Any:
+        return dot(unit(exact(across)), difference(of, exact(point)))
+
+    def radiance(x: float, y: float) -> Vector:
+        origin, direction = camera_ray(scene.camera, x, y)
+        next_point = combined((1, origin), (1, direction))
+        here, ahead = height(origin), height(next_point)
+        if abs(here) <= abs(ahead) and here * ahead > 0:
+            return gradient(sky["bottom"], sky["top"], direction[1])
+        above = height(exact(light))
+        if above * here <= 0:
+            return BLACK
+        met = combined((ahead / (ahead - here), origin), (-here / (ahead - here), next_point))
+        apart = length(difference(exact(light), met))
+        return combined((abs(above) / (mp.pi * apart**3), by_channel(exact(reflectance), exact(intensity))))
+
+    return make.case(numbers, scene, radiance)
+
+
 def sphere_in_parallel_projection(numbers: Random) -> Case:
     """Seen along f, the normal at the offset (u, v) from the middle is (u·right + v·up - sqrt(r² - u² - v²)·f)/r.
 

@@ -1,4 +1,4 @@
-"""A second, independent reference: one sphere or one triangle with every local shading term, in closed form.
+"""A second, independent reference: one sphere, triangle or plane with every local shading term, in closed form.
 
 Written in vectorised NumPy without a look at the reference tracer: other intersection formulas, shadows decided by
 convexity instead of rays, so that a fault shared by both is unlikely.
@@ -15,15 +15,16 @@ from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.records.renderings import FirstHits, RendererError, Rendering
 from raytruth.comparisons.renderers.closed_form.geometry import (
     Hits,
+    intersect_plane,
     intersect_sphere,
     intersect_triangle,
     is_unobstructed,
 )
 from raytruth.comparisons.renderers.closed_form.shading import background_radiance, surface_radiance
 from raytruth.comparisons.renderers.protocol import Integrator
-from raytruth.scenes.features import BACKGROUNDS, GEOMETRY, LIGHTS, LOCAL_TERMS, missing_features
+from raytruth.scenes.features import BACKGROUNDS, GEOMETRY, LIGHTS, LOCAL_TERMS, Feature, missing_features
 from raytruth.scenes.requirements import required_features
-from raytruth.scenes.shapes import Sphere
+from raytruth.scenes.shapes import Plane, Sphere
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
     from raytruth.scenes.shapes import Shape
 
-EXPRESSES = GEOMETRY | BACKGROUNDS | LIGHTS | LOCAL_TERMS
+EXPRESSES = GEOMETRY | {Feature.PLANES} | BACKGROUNDS | LIGHTS | LOCAL_TERMS
 # No value depends on more than 2^8 rounded operations one after the other (about 100 with one light, and 8 for each
 # further one), so that to first order another sequence of float64 operations differs by 2^8 roundoffs at most.
 REORDERING_BITS = 8
@@ -41,7 +42,7 @@ FLOAT64_BITS = 53
 
 
 class ClosedFormRenderer:
-    """Scenes of one sphere or one triangle without mirrors and glass, in float64, with no ray offset."""
+    """Scenes of one sphere, triangle or plane without mirrors and glass, in float64, with no ray offset."""
 
     name = "closed_form"
     integrators = (Integrator("local", r"E(e|DL)"),)
@@ -57,7 +58,7 @@ class ClosedFormRenderer:
         return f"NumPy {np.__version__}"
 
     def refuses(self, scene: Scene) -> str | None:
-        """Why the scene is not one sphere or one triangle with local terms only."""
+        """Why the scene is not one sphere, triangle or plane with local terms only."""
         if scene.camera.inside is not None:
             return "its camera is inside a dielectric"
         count = sum(_primitive_count(shape) for shape in scene.objects)
@@ -108,6 +109,8 @@ def _material(scene: Scene) -> Material:
 def _intersect(shape: Shape, rays: Rays) -> Hits:
     if isinstance(shape, Sphere):
         return intersect_sphere(rays, np.array(shape.center), shape.radius)
+    if isinstance(shape, Plane):
+        return intersect_plane(rays, np.array(shape.point), np.array(shape.normal))
     vertices = np.array(shape.vertices)
     if shape.shape == "mesh":
         vertices = vertices[list(shape.faces[0])]

@@ -1,4 +1,4 @@
-"""Where rays meet one sphere or one triangle, and whether it stands between itself and a light.
+"""Where rays meet one sphere, one triangle or one plane, and whether it stands between itself and a light.
 
 Arrays of vectors have shape (height, width, 3); everything is float64.
 """
@@ -94,12 +94,30 @@ def intersect_triangle(rays: Rays, vertices: Array) -> Hits:
     )
 
 
+def intersect_plane(rays: Rays, point: Array, normal: Array) -> Hits:
+    """The hit ahead of each ray's origin, by similar triangles; a ray along the plane misses, one from within it too.
+
+    A ray whose start is h above the plane, and a point at distance 1 on it h - s, meets the plane at the distance h/s.
+    """
+    unit = normal / np.linalg.norm(normal)
+    height = dot(rays.origins - point, unit)
+    sinking = -dot(rays.directions, unit)
+    distance = height / sinking
+    return Hits(
+        is_hit=(sinking != 0) & (distance > 0),
+        distance=distance,
+        position=rays.origins + distance[..., None] * rays.directions,
+        normal=np.broadcast_to(unit, rays.directions.shape),
+        is_front=sinking > 0,
+    )
+
+
 def is_unobstructed(light: Light, shape: Shape, hits: Hits) -> NDArray[np.bool_]:
     """Whether a light on the viewer's side of the tangent plane is seen from each hit point; shape (height, width).
 
-    A triangle is flat, and a sphere seen from outside is convex: neither can stand before what their tangent plane
-    does not hide. Seen from inside, the ball is convex, so it holds the whole way to every point light in it, and hides
-    all that is outside.
+    A triangle or a plane is flat, and a sphere seen from outside is convex: none can stand before what its tangent
+    plane does not hide. Seen from inside, the ball is convex, so it holds the whole way to every point light in it, and
+    hides all that is outside.
     """
     if not isinstance(shape, Sphere):
         return np.ones_like(hits.is_front)

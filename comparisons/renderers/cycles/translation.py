@@ -100,7 +100,7 @@ def _far(scene: Scene) -> float:
         if isinstance(shape, Sphere):
             corners.append(np.array([np.subtract(shape.center, shape.radius), np.add(shape.center, shape.radius)]))
         else:
-            corners.append(np.array(shape.vertices))
+            corners.append(np.array(triangle_lists(shape)[0]))
     both = np.concatenate(corners)
     return BEYOND_ALL * float(np.linalg.norm(both.max(axis=0) - both.min(axis=0)))
 

@@ -26,6 +26,7 @@ from raytruth.comparisons.renderers.protocol import Integrator, Renderer
 from raytruth.scenes.exporters.triangle_soup import material_of_each_triangle, triangles_of_scene
 from raytruth.scenes.features import BACKGROUNDS, FURTHER_RAYS, LIGHTS, LOCAL_TERMS, TRIANGLE_GEOMETRY, missing_features
 from raytruth.scenes.lights import Light, PointLight
+from raytruth.scenes.planes import refuses_planes
 from raytruth.scenes.requirements import required_features
 from raytruth.scenes.shapes import Sphere
 
@@ -105,6 +106,9 @@ class EmbreeRenderer:
         """Why the scene is not one of triangles in empty space."""
         if any(isinstance(shape, Sphere) for shape in scene.objects):
             return "Embree as embreex offers it has triangles and no spheres"
+        without_planes = refuses_planes("Embree", scene)
+        if without_planes:
+            return without_planes
         if scene.camera.inside is not None:
             return "its camera is inside a dielectric, and Embree knows no media"
         return missing_features("Embree", EXPRESSES, required_features(scene))

@@ -23,6 +23,7 @@ from raytruth.comparisons.renderers.vtk.job import JOB_FILE, RESULT_FILE, TASK_F
 from raytruth.comparisons.renderers.vtk.light import lamps_of, refused_light, surfaces_of
 from raytruth.scenes.exporters.triangle_soup import triangles_of_scene
 from raytruth.scenes.lights import ConstantBackground
+from raytruth.scenes.planes import refuses_planes
 from raytruth.scenes.shapes import Sphere
 
 if TYPE_CHECKING:
@@ -83,6 +84,9 @@ class Vtk:
         """Why the scene is not one of triangles in empty space, in front of the camera, in light that VTK has."""
         if any(isinstance(shape, Sphere) for shape in scene.objects):
             return "VTK draws triangles and no spheres"
+        without_planes = refuses_planes("VTK", scene)
+        if without_planes:
+            return without_planes
         if scene.camera.inside is not None:
             return "its camera is inside a dielectric, and VTK knows no media"
         if scene.camera.projection == "perspective" and view_volume(scene).near <= 0.0:

@@ -81,12 +81,15 @@ def test_an_image_radius_is_not_negative_and_told_in_words() -> None:
 @pytest.mark.parametrize(("radius", "growth"), [(1.0, 1.0), (1e3, 1.0), (1e4, 16.0), (1e5, 128.0)])
 def test_least_distances_grow_with_the_extent_of_a_scene_by_powers_of_two(radius: float, growth: float) -> None:
     tested = RayOffset(absolute=1e-3, minimum_distance=1e-3, excludes_surface=False)
-    model = ErrorModel("", 24, tested, shadow_tolerance=1e-2, largest_extent=16_384.0)
+    model = ErrorModel("", 24, tested, shadow_tolerance=1e-2, largest_extent=16_384.0, farthest=1e5)
     scene = small_scene(objects=[sphere("white", radius=radius)])
     scaled = model.in_scene(scene)
     assert scaled.ray_offset == replace(tested, minimum_distance=growth * 1e-3)
     assert scaled.shadow_tolerance == growth * 1e-2
+    assert scaled.farthest == growth * 1e5
     assert "farther than 1.638e+04" in model.in_words()["large scenes"]
+    assert "farther than 1e+05" in model.in_words()["infinite planes"]
+    assert ErrorModel("", 24).in_words()["infinite planes"] == "are met at any distance"
     assert ErrorModel("", 24, tested).in_scene(scene) == ErrorModel("", 24, tested)
 
 

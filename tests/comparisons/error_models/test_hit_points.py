@@ -29,6 +29,7 @@ from raytruth.reference_tracer.source.scene_data import (
     TRIANGLE_A,
     TRIANGLE_B,
     TRIANGLE_C,
+    TRIANGLE_MATERIAL,
 )
 from raytruth.reference_tracer.source.triangle import triangle_distance
 from raytruth.scenes.features import Feature
@@ -59,7 +60,8 @@ def hits() -> list[tuple[Any, ...]]:
 
 
 def triangle_data(*corners: Any) -> Any:
-    return scene_data({table: [corner] for table, corner in zip(TABLES, corners, strict=True)})
+    tables: dict[int, list[Any]] = {table: [corner] for table, corner in zip(TABLES, corners, strict=True)}
+    return scene_data(tables | {TRIANGLE_MATERIAL: [0]})
 
 
 @pytest.mark.parametrize("find", [hit_point_by_pluecker, hit_point_by_moeller_trumbore])

@@ -17,6 +17,9 @@ from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic
 from raytruth.reference_tracer.arithmetics.behaviour import merged
 from raytruth.reference_tracer.source.scene_data import (
+    PLANE_MATERIAL,
+    PLANE_NORMAL,
+    PLANE_POINT,
     SPHERE_CENTER,
     SPHERE_RADIUS,
     TRIANGLE_A,
@@ -70,7 +73,7 @@ def test_only_what_the_offset_changes_is_overridden() -> None:
     def names(offset: RayOffset, shortening: float = 0.0) -> set[str]:
         return set(offset_behaviour(ErrorModel("", 24, offset, shortening)).functions)
 
-    tested = {"distance_to_sphere", "distance_to_triangle"}
+    tested = {"distance_to_sphere", "distance_to_triangle", "distance_to_plane"}
     assert names(RayOffset()) == set()
     assert names(RayOffset(), SHORTENING) == {"shadow_ray_end"}
     assert names(LIKE_MITSUBA) == {"departure", "distance_to_sphere", "distance_to_other_side"}
@@ -78,6 +81,7 @@ def test_only_what_the_offset_changes_is_overridden() -> None:
     assert names(RayOffset(minimum_distance=OFFSET, excludes_surface=False)) == tested
     model = ErrorModel("", 24, RayOffset(excludes_surface=False), shadow_tolerance=OFFSET)
     assert set(offset_behaviour(model).functions) == {"is_shadowed", *tested}
+    assert set(offset_behaviour(ErrorModel("", 24, farthest=9.0)).functions) == {"nearest_hit"}
 
 
 @pytest.mark.parametrize(("height", "comes_back"), [(0.3, True), (-0.3, False)])
@@ -260,3 +264,77 @@ def test_within_the_shadow_tolerance_something_throws_a_shadow_or_none(
         assert answers(height + 3 * LEAST) == {True, False}
         assert answers(height + 5 * LEAST) == {True}
         assert answers(height - LEAST) == {False}
+
+
+def floor(height: float) -> Any:
+    """A plane across the z axis, and no triangle."""
+    tables: dict[int, list[Any]] = {PLANE_POINT: [balls((9.0, 9.0, height))], PLANE_NORMAL: [balls((0.0, 0.0, 2.0))]}
+    return scene_data(tables | {PLANE_MATERIAL: [0]})
+
+
+def ways(ask: Any, decisions: Decisions) -> set[Any]:
+    return set(every_outcome(ask, decisions, 4))
+
+
+@pytest.mark.parametrize("speed", [1.0, 16.0])
+def test_with_a_least_distance_a_plane_is_met_only_beyond_it_also_by_who_starts_on_it(speed: float) -> None:
+    kernel, decisions = kernel_of(RayOffset(minimum_distance=LEAST, excludes_surface=False))
+    down = balls((0.0, 0.0, -speed))
+
+    def distance(height: float) -> Any:
+        (found,) = every_outcome(
+            lambda: kernel.distance_to_plane(floor(0.0), balls((0.0, 0.0, height)), down, 0, 0), decisions, 1
+        )
+        return found
+
+    assert holds(distance(1.0), mpmath.mpf(1) / speed)
+    assert holds(distance(2 * LEAST), mpmath.mpf(2 * LEAST) / speed)
+    assert float(distance(LEAST / 2)) == math.inf
+    assert float(distance(-1.0)) == math.inf
+
+
+FARTHEST = 64.0
+
+
+@pytest.mark.parametrize(("depth", "hits"), [(1.0, {0}), (FARTHEST / 2, {0}), (2 * FARTHEST, {0, -1})])
+@pytest.mark.parametrize("speed", [1.0, 4.0])
+def test_a_plane_that_is_too_far_is_met_or_not(depth: float, hits: set[int], speed: float) -> None:
+    decisions = Decisions()
+    arithmetic = put_in_force(rounded_ball_arithmetic(53, decisions))
+    model = ErrorModel("", 53, farthest=FARTHEST)
+    kernel = make_kernel(arithmetic, set(Feature), merged(HELPERS, offset_behaviour(model)))
+    origin, down = balls((0.0, 0.0, 0.0)), balls((0.0, 0.0, -speed))
+    assert ways(lambda: kernel.nearest_hit(floor(-depth), origin, down, -1)[1], decisions) == hits
+
+
+@pytest.mark.parametrize("light_is_near", [True, False])
+@pytest.mark.parametrize(("height", "expected"), [(4.0, {True}), (2 * FARTHEST, {True, False}), (-4.0, {False})])
+def test_a_plane_that_is_too_far_throws_a_shadow_or_none(
+    height: float, expected: set[bool], light_is_near: bool
+) -> None:
+    decisions = Decisions()
+    arithmetic = put_in_force(rounded_ball_arithmetic(53, decisions))
+    offset = RayOffset(minimum_distance=LEAST, excludes_surface=False)
+    model = ErrorModel("", 53, offset, shadow_tolerance=4 * LEAST, farthest=FARTHEST)
+    kernel = make_kernel(arithmetic, set(Feature), merged(HELPERS, offset_behaviour(model)))
+    point, up, to_light = balls((0.0, 0.0, 0.0)), balls((0.0, 0.0, 1.0)), balls((0.0, 0.0, 4 * FARTHEST))
+
+    def shadowed() -> bool:
+        return bool(kernel.is_shadowed(floor(height), -1, point, up, to_light, light_is_near))
+
+    assert ways(shadowed, decisions) == expected
+
+
+@pytest.mark.parametrize("light_is_near", [True, False])
+def test_without_a_farthest_distance_planes_throw_shadows_at_any(light_is_near: bool) -> None:
+    decisions = Decisions()
+    arithmetic = put_in_force(rounded_ball_arithmetic(53, decisions))
+    offset = RayOffset(minimum_distance=LEAST, excludes_surface=False)
+    model = ErrorModel("", 53, offset, shadow_tolerance=4 * LEAST)
+    kernel = make_kernel(arithmetic, set(Feature), merged(HELPERS, offset_behaviour(model)))
+    point, up, to_light = balls((0.0, 0.0, 0.0)), balls((0.0, 0.0, 1.0)), balls((0.0, 0.0, 1e12))
+
+    def shadowed() -> bool:
+        return bool(kernel.is_shadowed(floor(1e9), -1, point, up, to_light, light_is_near))
+
+    assert ways(shadowed, decisions) == {True}

@@ -19,6 +19,7 @@ SHORTCUTS = {
     "a least distance": replace(PLAIN, ray_offset=TESTED),
     "a surface that is tested": replace(PLAIN, ray_offset=RayOffset(excludes_surface=False)),
     "short shadow rays": replace(PLAIN, shadow_shortening=1e-3),
+    "a farthest distance": replace(PLAIN, farthest=1e4),
     "near shadows": replace(PLAIN, ray_offset=TESTED, shadow_tolerance=1e-2),
 }
 
@@ -51,3 +52,16 @@ def test_the_size_is_told_beside_the_smallest_sphere_or_edge() -> None:
     assert told.endswith("times the shortest edge")
     assert "before the light" in shortcuts_in_words(SHORTCUTS["short shadow rays"], small)
     assert shortcuts_in_words(PLAIN, small) == ""
+
+
+def test_planes_have_no_size_and_only_beside_them_something_is_far() -> None:
+    plane, with_spheres = open_scene("single-plane"), open_scene("spheres-on-a-plane")
+    assert (
+        shortcuts_in_words(SHORTCUTS["an offset"], plane)
+        == "its ray offset is up to 0.0001, 0.0001 times a unit of length"
+    )
+    assert shortcuts_in_words(SHORTCUTS["a relative offset"], plane).startswith("its ray offset is up to 0.00023, ")
+    assert shortcuts_in_words(SHORTCUTS["an offset"], with_spheres).endswith("times the radius of the smallest sphere")
+    told = shortcuts_in_words(SHORTCUTS["a farthest distance"], plane)
+    assert told == "it may miss what is farther than 1e+04, and planes are infinite"
+    assert shortcuts_in_words(SHORTCUTS["a farthest distance"], open_scene("single-sphere")) == ""

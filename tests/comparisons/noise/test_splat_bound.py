@@ -12,7 +12,7 @@ from raytruth.comparisons.renderers.mitsuba import adapter
 from raytruth.reference_tracer.rendering import primary_rays
 from raytruth.scenes.library import open_scene
 from tests.reference_tracer.small_scenes import library_scene
-from tests.scenes.exporter_scenes import GLASS, MIRROR, POINT, build
+from tests.scenes.exporter_scenes import GLASS, MIRROR, PLANE, POINT, build
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -26,6 +26,7 @@ pytestmark = pytest.mark.clause("VER-6")
         ({"lights": [POINT]}, True),
         ({"lights": [POINT, POINT]}, True),
         ({}, False),
+        ({"lights": [POINT], "objects": [PLANE]}, False),
         ({"lights": [POINT], "background": {"color": (0.1, 0.1, 0.1)}}, False),
         ({"lights": [POINT], "materials": {"m": MIRROR}}, False),
         ({"lights": [POINT], "materials": {"m": GLASS}}, False),

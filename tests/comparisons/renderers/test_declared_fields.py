@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -61,6 +62,7 @@ DECIDING: list[tuple[tuple[str, ...], str, Scene, Change]] = [
     (("embree",), "offset", scenes.beside_a_wall(8e-5), quarter_offset),
     (("embree", "embree-robust"), "precision", scenes.single_triangle(), without(precision_bits=30)),
     (("povray",), "least distance", scenes.beside_a_wall(8e-8), no_least_distance),
+    (("povray",), "farthest", scenes.far_plane(), without(farthest=inf)),
     (("povray",), "output", scenes.single_triangle(), without(output=OutputModel("float32"))),
 ]
 CASES = [

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from raytruth.comparisons.records.renderings import Rays
-from raytruth.comparisons.renderers.closed_form.geometry import intersect_sphere, intersect_triangle
+from raytruth.comparisons.renderers.closed_form.geometry import intersect_plane, intersect_sphere, intersect_triangle
 
 pytestmark = pytest.mark.clause("REN-6")
 
@@ -72,3 +72,30 @@ def test_a_triangle_without_area_is_never_hit():
     line = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [2.0, 2.0, 0.0]])
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):  # as the renderer does
         assert not intersect_triangle(one_ray((1, 1, 5), (0, 0, -1)), line).is_hit.any()
+
+
+@given(
+    st.tuples(*[st.integers(-8, 8)] * 3),
+    st.tuples(*[st.integers(-8, 8)] * 3).filter(any),
+    st.tuples(*[st.integers(-8, 8)] * 3),
+    st.sampled_from([(0, 0, 2), (0, -4, 0), (3, 0, 4), (-2, 6, 3), (2, 3, -6)]),
+)
+def test_planes_are_hit_exactly_where_their_equation_says(origin, direction, point, normal):
+    # Normals of whole length, so that only quotients round.
+    start, ahead, place, across = (np.array(vector, dtype=np.int64) for vector in (origin, direction, point, normal))
+    height, approach = int((place - start) @ across), int(ahead @ across)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):  # as the renderer does
+        hits = intersect_plane(one_ray(start, ahead), place.astype(float), across.astype(float))
+    if approach and abs(height) > 0:
+        assert hits.is_hit[0, 0] == (height / approach > 0)
+    if hits.is_hit[0, 0] and height:
+        assert abs(hits.distance[0, 0] - height / approach) < ROUNDING * (1 + height / approach)
+        assert hits.is_front[0, 0] == (approach < 0)
+        np.testing.assert_allclose(hits.normal[0, 0], across / np.linalg.norm(across), rtol=0, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("height", [-2.0, 0.0, 2.0])
+def test_no_ray_along_a_plane_hits_it(height):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):  # as the renderer does
+        hits = intersect_plane(one_ray((1, height, 5), (3, 0, -4)), np.zeros(3), np.array([0.0, 2.0, 0.0]))
+    assert not hits.is_hit.any()
