@@ -94,7 +94,9 @@ class PixelOutcomes:
             colors[place] = _colors(linked, pixel)
             if colors[place] is None and not linked.spent:
                 colors[place] = _colors(self._plain(model), pixel)
-        for place in sorted(set(_loose(colors, brightest, model)) - set(unclear)):  # fewer, now that the brightest is known
+        for place in sorted(
+            set(_loose(colors, brightest, model)) - set(unclear)
+        ):  # fewer, now that the brightest is known
             colors[place] = _sharper(_colors(linked, pixels[place]), colors[place])
 
 
