@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.renderers.closed_form.adapter import ClosedFormRenderer
@@ -11,6 +12,7 @@ from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_llvm, mitsuba
 from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.comparisons.renderers.povray import PovRay
 from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
+from raytruth.comparisons.renderers.program.finished_image import FinishedImage
 from raytruth.comparisons.renderers.vtk.adapter import Vtk
 from raytruth.scenes.wording import quoted, suggestion
 
@@ -31,9 +33,11 @@ def family_of(renderer: Renderer) -> str | None:
     return _FAMILIES.get(renderer.name, renderer.name)
 
 
-def option_of(renderer: Renderer) -> str:
-    """What chooses a renderer on the command line, as a shell takes it."""
-    return renderer.chosen_by if isinstance(renderer, ProgramRenderer) else f"--renderer {renderer.name}"
+def command_of(renderer: Renderer, source: str) -> str:
+    """What judges a renderer again, on the scene that this names on the command line."""
+    if isinstance(renderer, ProgramRenderer | FinishedImage):
+        return renderer.command(source)
+    return f"raytruth run {shlex.quote(source)} --renderer {renderer.name} --fresh"
 
 
 class UnknownRendererError(Exception):

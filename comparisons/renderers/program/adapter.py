@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import shlex
 import shutil
 import time
 from dataclasses import dataclass
@@ -19,7 +20,7 @@ from raytruth.comparisons.records.renderings import FirstHits, RendererError, Re
 from raytruth.comparisons.renderers.program.command import filled_command, named_files
 from raytruth.comparisons.renderers.program.declared_model import error_model_of_declaration, output_model_of
 from raytruth.comparisons.renderers.program.first_hit_files import FIRST_HITS_FILE, read_first_hits
-from raytruth.comparisons.renderers.program.output_images import read_output
+from raytruth.comparisons.renderers.program.output_images import read_output, unflipped
 from raytruth.comparisons.renderers.protocol import Integrator
 from raytruth.scenes.exporters.formats import FORMATS
 from raytruth.scenes.light_paths import WHITTED
@@ -48,7 +49,7 @@ class ProgramRenderer:
     folder: Path
     """Where the paths in the declaration start."""
     chosen_by: str
-    """What chooses it on the command line: an option with its value."""
+    """What chooses it on the command line: an option with its value, as a shell takes it."""
 
     @property
     def name(self) -> str:
@@ -130,6 +131,10 @@ class ProgramRenderer:
                     (work / name).replace(folder / name)
             shutil.rmtree(work, ignore_errors=True)
 
+    def command(self, source: str) -> str:
+        """What runs it again on a scene."""
+        return f"raytruth run {shlex.quote(source)} {self.chosen_by} --fresh"
+
     @property
     def _output(self) -> str:
         return f"output.{self.declaration.writes}"
@@ -167,21 +172,14 @@ class ProgramRenderer:
         self._run(self.declaration.command, work, self.declaration.limits.seconds, values)
         size = (scene.camera.height, scene.camera.width)
         model = output_model_of(self.declaration)
-        image = read_output(output, self.declaration.writes, self.declaration.numbers, size, model)
-        return np.ascontiguousarray(image[self._unflipped])
+        return np.ascontiguousarray(read_output(output, self.declaration, size, model))
 
     def _first_hits(self, scene: Scene, work: Path) -> FirstHits | None:
         """Those of the last run, if the command asks for them."""
         if not self.declaration.uses("first_hits"):
             return None
         hits = read_first_hits(work / FIRST_HITS_FILE, (scene.camera.height, scene.camera.width))
-        return FirstHits(**{name: values[self._unflipped] for name, values in vars(hits).items()})
-
-    @property
-    def _unflipped(self) -> tuple[slice, slice]:
-        """Which pixels of a picture are those of the scene, from the top left."""
-        conventions = self.declaration.conventions
-        return slice(None, None, -1 if conventions.flip_y else 1), slice(None, None, -1 if conventions.flip_x else 1)
+        return FirstHits(**{name: unflipped(values, self.declaration) for name, values in vars(hits).items()})
 
     def _run(self, command: tuple[str, ...], work: Path, seconds: float, values: dict[str, object]) -> None:
         declared = self.declaration

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 import OpenImageIO
@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
     from raytruth.comparisons.error_models.output_model import OutputModel
     from raytruth.comparisons.records.renderings import Image
+    from raytruth.comparisons.renderers.program.declaration import Declaration
 
+Pixels = TypeVar("Pixels", bound="NDArray[Any]")
 Format = Literal["exr", "pfm", "hdr", "ppm", "png"]
 Numbers = Literal["uint8", "uint16", "half", "float"]
 ModelNumbers = Literal["uint8", "uint16", "float16", "float32", "rgbe"]
@@ -50,8 +52,8 @@ def stored_numbers(path: Path) -> Numbers:
         source.close()
 
 
-def read_output(path: Path, form: Format, numbers: Numbers | None, size: tuple[int, int], model: OutputModel) -> Image:
-    """The linear colours in a picture of a size, (height, width), which must be as declared.
+def read_output(path: Path, declared: Declaration, size: tuple[int, int], model: OutputModel) -> Image:
+    """The linear colours in a picture of a size, (height, width), which must be as declared; flips are undone.
 
     Only R, G and B are read. Raises RendererError, in one sentence, for a file that is missing, damaged, of another
     format or size, or that holds other numbers.
@@ -59,12 +61,13 @@ def read_output(path: Path, form: Format, numbers: Numbers | None, size: tuple[i
     source = _opened(path)
     try:
         spec = source.spec()
-        if source.format_name() != FORMATS[form][0]:
-            raise RendererError(f"its {path.name} is {source.format_name()}, but {form} is declared")
-        declared = numbers or next(iter(FORMATS[form][1]))
+        form, usual = FORMATS[declared.writes]
+        if source.format_name() != form:
+            raise RendererError(f"its {path.name} is {source.format_name()}, but {declared.writes} is declared")
+        numbers = declared.numbers or next(iter(usual))
         found = _checked_numbers(path, spec)
-        if found != declared:
-            raise RendererError(f"its {path.name} holds {found} numbers, but {declared} is declared; declare {found}")
+        if found != numbers:
+            raise RendererError(f"its {path.name} holds {found} numbers, but {numbers} is declared; declare {found}")
         if (spec.height, spec.width) != size:
             expected = f"{size[1]}x{size[0]} pixels"
             raise RendererError(f"its {path.name} has {spec.width}x{spec.height} pixels, expected {expected}")
@@ -76,7 +79,13 @@ def read_output(path: Path, form: Format, numbers: Numbers | None, size: tuple[i
         raise RendererError(f"the header of its {path.name} is damaged, a name in it is not UTF-8") from error
     finally:
         source.close()
-    return _linear(np.asarray(pixels)[..., channels], model)
+    return unflipped(_linear(np.asarray(pixels)[..., channels], model), declared)
+
+
+def unflipped(pixels: Pixels, declared: Declaration) -> Pixels:
+    """The same pixels from the scene's top left, shape (height, width, …)."""
+    conventions = declared.conventions
+    return pixels[:: -1 if conventions.flip_y else 1, :: -1 if conventions.flip_x else 1]
 
 
 def _linear(pixels: NDArray[np.generic], model: OutputModel) -> Image:
