@@ -71,6 +71,8 @@ def _further_problems(declaration: Declaration) -> Iterator[tuple[Location, str]
         yield ("numbers",), f"expected {known} in {declaration.writes}, found {quoted(declaration.numbers)}."
     if declaration.clipped is False and declaration.writes in {"ppm", "png"}:
         yield ("clipped",), "expected true, since whole numbers hold nothing above 1."
+    if declaration.colours == "srgb" and declaration.writes == "hdr":
+        yield ("colours",), "expected 'linear' in hdr, found 'srgb'."
     yield from contradictions(declaration)
     yield from not_judged_yet(declaration)
 
