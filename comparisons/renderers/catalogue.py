@@ -10,6 +10,7 @@ from raytruth.comparisons.renderers.embree.adapter import embree, embree_robust
 from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_llvm, mitsuba_scalar
 from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.comparisons.renderers.povray import PovRay
+from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
 from raytruth.comparisons.renderers.vtk.adapter import Vtk
 from raytruth.scenes.wording import quoted, suggestion
 
@@ -23,9 +24,11 @@ if TYPE_CHECKING:
 _FAMILIES = {"mitsuba-llvm": "mitsuba", "embree-robust": "embree", "raytruth": None}
 
 
-def family_of(name: str) -> str | None:
+def family_of(renderer: Renderer) -> str | None:
     """The project whose opinion a renderer is, which counts once; None for the tracer that the truth comes from."""
-    return _FAMILIES.get(name, name)
+    if isinstance(renderer, ProgramRenderer):
+        return renderer.declaration.family or renderer.name
+    return _FAMILIES.get(renderer.name, renderer.name)
 
 
 class UnknownRendererError(Exception):
