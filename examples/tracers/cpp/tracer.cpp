@@ -1,0 +1,205 @@
+// A Whitted ray tracer, written to raytruth's docs/spec.md, whose clauses are named behind the lines they belong to.
+//
+//     tracer SCENE.json OUTPUT.pfm
+//
+// -DREAL=float computes in float32. -DEPSILON=1e-4 keeps a ray from the surface that it leaves by a least distance,
+// as many tracers do; without it the surface is left out by its number, as the specification has it.
+#include <cstdio>
+
+#include "scene.hpp"
+
+static Scene scene;
+const int NOTHING = -1;
+
+struct Ray {
+    Vec origin, direction;  // the direction is a unit vector
+    int leaves = NOTHING;   // the primitive on whose surface the ray starts
+};
+struct Hit {
+    real distance = FAR;
+    int primitive = NOTHING;  // all spheres are numbered first, then all triangles (TRAV-2)
+};
+
+real least_distance(const Ray& ray) {
+#ifdef EPSILON
+    return ray.leaves == NOTHING ? 0 : real(EPSILON);
+#else
+    (void)ray;
+    return 0;
+#endif
+}
+
+bool is_own(const Ray& ray, int primitive) {
+#ifdef EPSILON
+    (void)ray, (void)primitive;
+    return false;
+#else
+    return ray.leaves == primitive;
+#endif
+}
+
+// The distance to the sphere, or FAR. Textbook quadratic: t² + 2bt + c = 0.
+real meet_sphere(const Ray& ray, int number) {
+    const Sphere& sphere = scene.spheres[number];
+    Vec from_center = ray.origin - sphere.center;
+    real b = dot(ray.direction, from_center), least = least_distance(ray);
+    if (is_own(ray, number)) return b < 0 ? -2 * b : FAR;  // SPH-4
+    real c = dot(from_center, from_center) - sphere.radius * sphere.radius;
+    real discriminant = b * b - c;
+    if (discriminant < 0) return FAR;  // SPH-2
+    real root = std::sqrt(discriminant);
+    if (-b - root > least) return -b - root;  // SPH-1
+    return -b + root > least ? -b + root : FAR;
+}
+
+// The distance to the triangle, or FAR (Möller and Trumbore 1997). TRI-1 to TRI-3.
+real meet_triangle(const Ray& ray, int number) {
+    if (is_own(ray, int(scene.spheres.size()) + number)) return FAR;
+    const Triangle& triangle = scene.triangles[number];
+    Vec p = cross(ray.direction, triangle.ac);
+    real determinant = dot(triangle.ab, p);
+    if (determinant == 0) return FAR;
+    Vec s = ray.origin - triangle.a;
+    real u = dot(s, p) / determinant;
+    if (u < 0 || u > 1) return FAR;
+    Vec q = cross(s, triangle.ab);
+    real v = dot(ray.direction, q) / determinant;
+    if (v < 0 || u + v > 1) return FAR;
+    real distance = dot(triangle.ac, q) / determinant;
+    return distance > least_distance(ray) ? distance : FAR;
+}
+
+Hit first_hit(const Ray& ray) {  // TRAV-1, TRAV-3: the first of equals stays
+    Hit hit;
+    int spheres = int(scene.spheres.size()), triangles = int(scene.triangles.size());
+    for (int i = 0; i < spheres; ++i) {
+        real distance = meet_sphere(ray, i);
+        if (distance < hit.distance) hit = {distance, i};
+    }
+    for (int i = 0; i < triangles; ++i) {
+        real distance = meet_triangle(ray, i);
+        if (distance < hit.distance) hit = {distance, spheres + i};
+    }
+    return hit;
+}
+
+bool is_hidden(const Ray& to_light, real light_distance) {  // SHAD-1 to SHAD-4
+    int spheres = int(scene.spheres.size()), triangles = int(scene.triangles.size());
+    for (int i = 0; i < spheres; ++i)
+        if (meet_sphere(to_light, i) < light_distance) return true;
+    for (int i = 0; i < triangles; ++i)
+        if (meet_triangle(to_light, i) < light_distance) return true;
+    return false;
+}
+
+Vec background(Vec direction) {  // BG-1
+    real k = (direction.y + 1) / 2;
+    return (1 - k) * scene.bottom + k * scene.top;
+}
+
+real attenuation(const Light& light, real distance) {  // ILL-7; in radiometric scenes 1/d² of ILL-3
+    real divisor = light.constant + light.linear * distance + light.quadratic * distance * distance;
+    if (light.clamped && divisor <= 1) return 1;
+    return 1 / divisor;
+}
+
+// What one light adds at `point`, whose `normal` is turned to the viewer. `reflected` is the mirror direction.
+Vec lit_by(const Light& light, Vec point, Vec normal, Vec view, Vec reflected, const Material& material, int primitive) {
+    Vec way = light.directional ? -light.direction : light.position - point;
+    real distance = light.directional ? FAR : length(way);
+    if (distance == 0) return {};  // ILL-9
+    Vec to_light = light.directional ? way : way / distance;
+    real cosine = dot(normal, to_light);
+    if (cosine <= 0 || is_hidden({point, to_light, primitive}, distance)) return {};  // ILL-2
+    Vec weight;
+    if (material.diffuse) {
+        Vec reflectance = material.diffuse->at(point);
+        weight = cosine * (scene.radiometric ? reflectance / PI : reflectance);  // ILL-3
+    }
+    if (material.specular) {  // ILL-5, ILL-6
+        real highlight = material.specular->blinn ? dot(normal, unit(to_light - view)) : dot(reflected, to_light);
+        if (highlight > 0) weight = weight + std::pow(highlight, material.specular->exponent) * material.specular->reflectance;
+    }
+    return (light.directional ? 1 : attenuation(light, distance)) * (weight * light.intensity);
+}
+
+Vec radiance(const Ray& ray, const Material* medium, int depth);
+
+// What a dielectric reflects and refracts (REFR). `normal` is turned to the ray's origin.
+Vec through(const Ray& ray, const Material& material, bool enters, Vec normal, const Ray& reflected,
+            const Material* medium, int depth) {
+    const Dielectric& glass = *material.dielectric;
+    real outer = glass.outside ? glass.outside->dielectric->index : 1;
+    real eta = enters ? glass.index / outer : outer / glass.index;  // REFR-1
+    real c = -dot(ray.direction, normal);
+    real g_squared = eta * eta - 1 + c * c;  // REFR-2
+    Vec mirrored = radiance(reflected, medium, depth - 1);
+    if (g_squared < 0) return glass.reflectance ? *glass.reflectance * mirrored : mirrored;  // REFR-5, REFR-6
+    real g = std::sqrt(g_squared);
+    real r_s = (c - g) / (c + g), r_p = (eta * eta * c - g) / (eta * eta * c + g);
+    real fresnel = c > 0 ? (r_s * r_s + r_p * r_p) / 2 : 1;  // REFR-4
+    real scale = scene.radiometric ? 1 / (eta * eta) : 1;
+    Vec transmittance = scale * (1 - fresnel) * Vec{1, 1, 1}, reflectance = fresnel * Vec{1, 1, 1};
+    if (glass.reflectance) reflectance = *glass.reflectance, transmittance = *glass.transmittance;  // REFR-6
+    Ray refracted{reflected.origin, (ray.direction + (c - g) * normal) / eta, reflected.leaves};  // REFR-3
+    const Material* beyond = enters ? &material : glass.outside;  // REFR-9
+    return reflectance * mirrored + transmittance * radiance(refracted, beyond, depth - 1);
+}
+
+// The radiance that comes back along the ray, which has `depth` reflections and refractions left (TREE).
+Vec radiance(const Ray& ray, const Material* medium, int depth) {
+    Hit hit = first_hit(ray);
+    if (hit.primitive == NOTHING) return background(ray.direction);  // BG-3: not absorbed
+    Vec point = ray.origin + hit.distance * ray.direction;
+    int triangle = hit.primitive - int(scene.spheres.size());
+    const Material& material =
+        *(triangle < 0 ? scene.spheres[hit.primitive].material : scene.triangles[triangle].material);
+    Vec normal;  // the shape's own: SPH-5, TRI-4
+    if (triangle < 0) normal = (point - scene.spheres[hit.primitive].center) / scene.spheres[hit.primitive].radius;
+    else normal = unit(cross(scene.triangles[triangle].ab, scene.triangles[triangle].ac));
+    bool enters = dot(ray.direction, normal) < 0;  // ILL-1
+    if (!enters) normal = -normal;
+    Ray reflected{point, ray.direction - 2 * dot(ray.direction, normal) * normal, hit.primitive};  // REFL-1
+
+    Vec sum;
+    if (material.emission) sum = sum + material.emission->at(point);
+    if (material.ambient) sum = sum + *material.ambient * scene.ambient_light;
+    if (material.diffuse || material.specular)
+        for (const Light& light : scene.lights)
+            sum = sum + lit_by(light, point, normal, ray.direction, reflected.direction, material, hit.primitive);
+    if (depth > 0 && material.mirror) sum = sum + *material.mirror * radiance(reflected, medium, depth - 1);  // REFL-2
+    if (depth > 0 && material.dielectric)
+        sum = sum + through(ray, material, enters, normal, reflected, medium, depth);
+
+    if (!medium || !medium->dielectric->absorption) return sum;
+    Vec sigma = *medium->dielectric->absorption;  // REFR-7
+    return sum * Vec{std::exp(-sigma.x * hit.distance), std::exp(-sigma.y * hit.distance), std::exp(-sigma.z * hit.distance)};
+}
+
+Ray camera_ray(int column, int row) {  // CAM-3, CAM-4, IMG-1
+    const Camera& camera = scene.camera;
+    real x = (column + real(0.5) - real(camera.width) / 2) * camera.pixel;
+    real y = (row + real(0.5) - real(camera.height) / 2) * camera.pixel;
+    Vec across = x * camera.right + y * camera.down;
+    if (camera.perspective) return {camera.position, unit(camera.forward + across)};
+    return {camera.position + across, camera.forward};
+}
+
+int main(int count, char** arguments) try {
+    if (count != 3) throw std::runtime_error("usage: tracer SCENE.json OUTPUT.pfm");
+    load(arguments[1], scene);
+    std::vector<float> image;
+    for (int row = scene.camera.height - 1; row >= 0; --row)  // a PFM begins with the bottom row
+        for (int column = 0; column < scene.camera.width; ++column) {
+            Vec color = radiance(camera_ray(column, row), scene.camera.inside, scene.max_depth);
+            image.insert(image.end(), {float(color.x), float(color.y), float(color.z)});
+        }
+    std::ofstream file(arguments[2], std::ios::binary);
+    file << "PF\n" << scene.camera.width << " " << scene.camera.height << "\n-1.0\n";  // negative: little endian
+    file.write(reinterpret_cast<const char*>(image.data()), std::streamsize(image.size() * sizeof(float)));
+    if (!file.flush()) throw std::runtime_error(std::string(arguments[2]) + " cannot be written");
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+}
