@@ -145,7 +145,7 @@ def load(path: Path) -> Scene:
     )
 
 
-def _camera(stated: dict[str, Any], materials: dict[str, Material]) -> Camera:
+def _camera(stated: dict[str, Any], materials: dict[str | None, Material]) -> Camera:
     forward = unit(subtract(stated["look_at"], stated["position"]))  # CAM-1
     right = unit(cross(forward, stated.get("up") or (0.0, 1.0, 0.0)))
     is_perspective = stated["projection"] == "perspective"
@@ -160,7 +160,7 @@ def _camera(stated: dict[str, Any], materials: dict[str, Material]) -> Camera:
         pixel=view_height / stated["height"],
         width=stated["width"],
         height=stated["height"],
-        inside=materials.get(stated.get("inside") or ""),
+        inside=materials.get(stated.get("inside")),
     )
 
 
@@ -175,11 +175,11 @@ def _light(stated: dict[str, Any]) -> Light:
     return Light(stated["position"], None, stated["intensity"], factors, is_clamped=isinstance(falloff, dict))
 
 
-def _materials(stated: dict[str, Any]) -> dict[str, Material]:
-    materials = {name: _material(material) for name, material in stated.items()}
+def _materials(stated: dict[str, Any]) -> dict[str | None, Material]:
+    materials: dict[str | None, Material] = {name: _material(material) for name, material in stated.items()}
     for name, material in materials.items():
         if material.dielectric is not None:
-            material.dielectric.outside = materials.get(stated[name]["dielectric"].get("outside") or "")
+            material.dielectric.outside = materials.get(stated[name]["dielectric"].get("outside"))
     return materials
 
 
