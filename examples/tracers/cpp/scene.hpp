@@ -73,6 +73,10 @@ struct Triangle {
     Vec a, ab, ac;  // a corner, and the way from it to the other two
     const Material* material;
 };
+struct Plane {
+    Vec point, normal;
+    const Material* material;
+};
 struct Light {
     bool directional;
     Vec position, direction;  // of a point light, of a directional light
@@ -97,6 +101,7 @@ struct Scene {
     std::map<std::string, Material> materials;
     std::vector<Sphere> spheres;
     std::vector<Triangle> triangles;
+    std::vector<Plane> planes;
 };
 
 inline Vec vec(const Json& json) {
@@ -204,6 +209,10 @@ inline void add_object(const Json& json, const std::string& folder, Scene& scene
     const Material* material = &scene.materials.at(json["material"].text);
     if (json["shape"].text == "sphere") {
         scene.spheres.push_back({vec(json["center"]), real(json["radius"].number), material});
+        return;
+    }
+    if (json["shape"].text == "plane") {
+        scene.planes.push_back({vec(json["point"]), unit(vec(json["normal"])), material});  // PLANE-4
         return;
     }
     std::vector<Vec> vertices;

@@ -16,8 +16,8 @@ struct Ray {
     int leaves = NOTHING;   // the primitive on whose surface the ray starts
 };
 struct Hit {
-    real distance = FAR;
-    int primitive = NOTHING;  // all spheres are numbered first, then all triangles (TRAV-2)
+    real distance;
+    int primitive;  // all spheres are numbered first, then all triangles, then all planes (TRAV-2)
 };
 
 real least_distance(const Ray& ray) {
@@ -38,12 +38,11 @@ bool is_own(const Ray& ray, int primitive) {
 #endif
 }
 
-// The distance to the sphere, or FAR. Textbook quadratic: t² + 2bt + c = 0.
-real meet_sphere(const Ray& ray, int number) {
-    const Sphere& sphere = scene.spheres[number];
+// The distance to a sphere, or FAR. Textbook quadratic: t² + 2bt + c = 0.
+real meet(const Ray& ray, const Sphere& sphere, bool own) {
     Vec from_center = ray.origin - sphere.center;
     real b = dot(ray.direction, from_center), least = least_distance(ray);
-    if (is_own(ray, number)) return b < 0 ? -2 * b : FAR;  // SPH-4
+    if (own) return b < 0 ? -2 * b : FAR;  // SPH-4
     real c = dot(from_center, from_center) - sphere.radius * sphere.radius;
     real discriminant = b * b - c;
     if (discriminant < 0) return FAR;  // SPH-2
@@ -52,13 +51,11 @@ real meet_sphere(const Ray& ray, int number) {
     return -b + root > least ? -b + root : FAR;
 }
 
-// The distance to the triangle, or FAR (Möller and Trumbore 1997). TRI-1 to TRI-3.
-real meet_triangle(const Ray& ray, int number) {
-    if (is_own(ray, int(scene.spheres.size()) + number)) return FAR;
-    const Triangle& triangle = scene.triangles[number];
+// The distance to a triangle, or FAR (Möller and Trumbore 1997). TRI-1 to TRI-3.
+real meet(const Ray& ray, const Triangle& triangle, bool own) {
     Vec p = cross(ray.direction, triangle.ac);
     real determinant = dot(triangle.ab, p);
-    if (determinant == 0) return FAR;
+    if (own || determinant == 0) return FAR;
     Vec s = ray.origin - triangle.a;
     real u = dot(s, p) / determinant;
     if (u < 0 || u > 1) return FAR;
@@ -69,27 +66,31 @@ real meet_triangle(const Ray& ray, int number) {
     return distance > least_distance(ray) ? distance : FAR;
 }
 
-Hit first_hit(const Ray& ray) {  // TRAV-1, TRAV-3: the first of equals stays
-    Hit hit;
-    int spheres = int(scene.spheres.size()), triangles = int(scene.triangles.size());
-    for (int i = 0; i < spheres; ++i) {
-        real distance = meet_sphere(ray, i);
-        if (distance < hit.distance) hit = {distance, i};
-    }
-    for (int i = 0; i < triangles; ++i) {
-        real distance = meet_triangle(ray, i);
-        if (distance < hit.distance) hit = {distance, spheres + i};
-    }
+// The distance to a plane, or FAR. PLANE-1 to PLANE-3.
+real meet(const Ray& ray, const Plane& plane, bool own) {
+    real along = dot(ray.direction, plane.normal);
+    if (own || along == 0) return FAR;
+    real distance = dot(plane.point - ray.origin, plane.normal) / along;
+    return distance > least_distance(ray) ? distance : FAR;
+}
+
+// The nearest hit that is nearer than `limit`. TRAV-1, TRAV-3: the first of equals stays.
+Hit first_hit(const Ray& ray, real limit = FAR) {
+    Hit hit{limit, NOTHING};
+    int number = 0;
+    auto search = [&](const auto& shapes) {
+        for (const auto& shape : shapes) {
+            real distance = meet(ray, shape, is_own(ray, number));
+            if (distance < hit.distance) hit = {distance, number};
+            ++number;
+        }
+    };
+    search(scene.spheres), search(scene.triangles), search(scene.planes);
     return hit;
 }
 
 bool is_hidden(const Ray& to_light, real light_distance) {  // SHAD-1 to SHAD-4
-    int spheres = int(scene.spheres.size()), triangles = int(scene.triangles.size());
-    for (int i = 0; i < spheres; ++i)
-        if (meet_sphere(to_light, i) < light_distance) return true;
-    for (int i = 0; i < triangles; ++i)
-        if (meet_triangle(to_light, i) < light_distance) return true;
-    return false;
+    return first_hit(to_light, light_distance).primitive != NOTHING;
 }
 
 Vec background(Vec direction) {  // BG-1
@@ -151,12 +152,20 @@ Vec radiance(const Ray& ray, const Material* medium, int depth) {
     Hit hit = first_hit(ray);
     if (hit.primitive == NOTHING) return background(ray.direction);  // BG-3: not absorbed
     Vec point = ray.origin + hit.distance * ray.direction;
-    int triangle = hit.primitive - int(scene.spheres.size());
-    const Material& material =
-        *(triangle < 0 ? scene.spheres[hit.primitive].material : scene.triangles[triangle].material);
-    Vec normal;  // the shape's own: SPH-5, TRI-4
-    if (triangle < 0) normal = (point - scene.spheres[hit.primitive].center) / scene.spheres[hit.primitive].radius;
-    else normal = unit(cross(scene.triangles[triangle].ab, scene.triangles[triangle].ac));
+    const Material* found;
+    Vec normal;  // the shape's own
+    int spheres = int(scene.spheres.size()), triangles = int(scene.triangles.size());
+    if (hit.primitive < spheres) {
+        const Sphere& sphere = scene.spheres[hit.primitive];
+        found = sphere.material, normal = (point - sphere.center) / sphere.radius;  // SPH-5
+    } else if (hit.primitive < spheres + triangles) {
+        const Triangle& triangle = scene.triangles[hit.primitive - spheres];
+        found = triangle.material, normal = unit(cross(triangle.ab, triangle.ac));  // TRI-4
+    } else {
+        const Plane& plane = scene.planes[hit.primitive - spheres - triangles];
+        found = plane.material, normal = plane.normal;
+    }
+    const Material& material = *found;
     bool enters = dot(ray.direction, normal) < 0;  // ILL-1
     if (!enters) normal = -normal;
     Ray reflected{point, ray.direction - 2 * dot(ray.direction, normal) * normal, hit.primitive};  // REFL-1

@@ -131,10 +131,10 @@ type Camera struct {
 	pixel                float64
 }
 
-// Object is a sphere, a triangle or a mesh.
+// Object is a sphere, a triangle, a mesh or a plane.
 type Object struct {
 	Shape, Material, File string
-	Center                Vec
+	Center, Point, Normal Vec
 	Radius                float64
 	Vertices              []Vec
 	Faces                 [][]int
@@ -154,14 +154,29 @@ type Scene struct {
 	primitives []*Primitive
 }
 
-// Primitive is a sphere, or a triangle if its radius is 0: a corner, the way from it to the other two, and its normal.
+// Primitive is a shape with a material.
 type Primitive struct {
-	center    Vec
-	radius    float64
-	a, ab, ac Vec
-	normal    Vec
-	material  *Material
+	Shape
+	material *Material
 }
+
+// Shape is a sphere, a triangle or a plane; how rays meet them is told in tracer.go.
+type Shape interface {
+	meet(ray *Ray, isOwn bool) float64 // the distance, or infinity
+	normalAt(point Vec) Vec            // the shape's own
+}
+
+// Sphere is all points at one distance from its center.
+type Sphere struct {
+	center Vec
+	radius float64
+}
+
+// Triangle is a corner, the way from it to the other two, and the shape's own normal.
+type Triangle struct{ a, ab, ac, normal Vec }
+
+// Plane is infinite.
+type Plane struct{ point, normal Vec }
 
 // named is the material of that name, nil for empty space.
 func (scene *Scene) named(name *string) *Material {
@@ -202,16 +217,17 @@ func (camera *Camera) aim() {
 	camera.pixel = viewHeight / float64(camera.Height)
 }
 
-// number lists the primitives: TRAV-2, all spheres, then all triangles.
+// number lists the primitives: TRAV-2, all spheres, then all triangles, then all planes.
 func (scene *Scene) number(folder string) error {
+	var spheres, triangles, planes []*Primitive
 	for _, object := range scene.Objects {
-		if object.Shape == "sphere" {
-			sphere := &Primitive{center: object.Center, radius: object.Radius, material: scene.Materials[object.Material]}
-			scene.primitives = append(scene.primitives, sphere)
-		}
-	}
-	for _, object := range scene.Objects {
-		if object.Shape == "triangle" {
+		material := scene.Materials[object.Material]
+		switch object.Shape {
+		case "sphere":
+			spheres = append(spheres, &Primitive{&Sphere{object.Center, object.Radius}, material})
+		case "plane":
+			planes = append(planes, &Primitive{&Plane{object.Point, object.Normal.unit()}, material}) // PLANE-4
+		case "triangle":
 			object.Faces = [][]int{{0, 1, 2}}
 		}
 		if object.File != "" {
@@ -223,12 +239,12 @@ func (scene *Scene) number(folder string) error {
 			a := object.Vertices[face[0]]
 			for i := 2; i < len(face); i++ { // a face of more corners is a fan
 				ab, ac := object.Vertices[face[i-1]].minus(a), object.Vertices[face[i]].minus(a)
-				normal := ab.cross(ac).unit() // TRI-4
-				triangle := &Primitive{a: a, ab: ab, ac: ac, normal: normal, material: scene.Materials[object.Material]}
-				scene.primitives = append(scene.primitives, triangle)
+				triangle := &Triangle{a, ab, ac, ab.cross(ac).unit()} // TRI-4
+				triangles = append(triangles, &Primitive{triangle, material})
 			}
 		}
 	}
+	scene.primitives = append(append(spheres, triangles...), planes...)
 	return nil
 }
 

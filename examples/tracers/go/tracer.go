@@ -19,19 +19,11 @@ type Ray struct {
 
 var far = math.Inf(1)
 
-// meet is the distance to the primitive, or infinity.
-func (ray *Ray) meet(primitive *Primitive) float64 {
-	if primitive.radius > 0 {
-		return ray.meetSphere(primitive)
-	}
-	return ray.meetTriangle(primitive)
-}
-
 // Textbook quadratic: t² + 2bt + c = 0.
-func (ray *Ray) meetSphere(sphere *Primitive) float64 {
+func (sphere *Sphere) meet(ray *Ray, isOwn bool) float64 {
 	fromCenter := ray.origin.minus(sphere.center)
 	b := ray.direction.dot(fromCenter)
-	if ray.leaves == sphere { // SPH-4
+	if isOwn { // SPH-4
 		if b < 0 {
 			return -2 * b
 		}
@@ -52,13 +44,10 @@ func (ray *Ray) meetSphere(sphere *Primitive) float64 {
 }
 
 // Möller and Trumbore 1997. TRI-1 to TRI-3.
-func (ray *Ray) meetTriangle(triangle *Primitive) float64 {
-	if ray.leaves == triangle {
-		return far
-	}
+func (triangle *Triangle) meet(ray *Ray, isOwn bool) float64 {
 	p := ray.direction.cross(triangle.ac)
 	determinant := triangle.ab.dot(p)
-	if determinant == 0 {
+	if isOwn || determinant == 0 {
 		return far
 	}
 	s := ray.origin.minus(triangle.a)
@@ -77,11 +66,29 @@ func (ray *Ray) meetTriangle(triangle *Primitive) float64 {
 	return far
 }
 
+// PLANE-1 to PLANE-3.
+func (plane *Plane) meet(ray *Ray, isOwn bool) float64 {
+	along := ray.direction.dot(plane.normal)
+	if isOwn || along == 0 {
+		return far
+	}
+	if distance := plane.point.minus(ray.origin).dot(plane.normal) / along; distance > 0 {
+		return distance
+	}
+	return far
+}
+
+func (sphere *Sphere) normalAt(point Vec) Vec {
+	return point.minus(sphere.center).times(1 / sphere.radius) // SPH-5
+}
+func (triangle *Triangle) normalAt(Vec) Vec { return triangle.normal }
+func (plane *Plane) normalAt(Vec) Vec       { return plane.normal }
+
 // firstHit is the nearest hit, nil where nothing is hit. TRAV-1, TRAV-3: of equals the first stays.
 func (scene *Scene) firstHit(ray *Ray) (nearest float64, hit *Primitive) {
 	nearest = far
 	for _, primitive := range scene.primitives {
-		if distance := ray.meet(primitive); distance < nearest {
+		if distance := primitive.meet(ray, primitive == ray.leaves); distance < nearest {
 			nearest, hit = distance, primitive
 		}
 	}
@@ -91,7 +98,7 @@ func (scene *Scene) firstHit(ray *Ray) (nearest float64, hit *Primitive) {
 // isHidden tells whether anything lies between the ray's start and the light. SHAD-1 to SHAD-4.
 func (scene *Scene) isHidden(toLight *Ray, lightDistance float64) bool {
 	for _, primitive := range scene.primitives {
-		if toLight.meet(primitive) < lightDistance {
+		if primitive.meet(toLight, primitive == toLight.leaves) < lightDistance {
 			return true
 		}
 	}
@@ -156,10 +163,7 @@ func (scene *Scene) radiance(ray *Ray, medium *Material, depth int) Vec {
 		return scene.background(ray.direction) // BG-3: not absorbed
 	}
 	point := ray.origin.plus(ray.direction.times(distance))
-	normal := hit.normal
-	if hit.radius > 0 {
-		normal = point.minus(hit.center).times(1 / hit.radius) // SPH-5
-	}
+	normal := hit.normalAt(point)
 	enters := ray.direction.dot(normal) < 0 // ILL-1
 	if !enters {
 		normal = normal.times(-1)

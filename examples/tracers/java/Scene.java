@@ -43,12 +43,21 @@ final class Scene {
 
     interface Primitive {
         Material material();
+        Vec normalAt(Vec point); // the shape's own
     }
 
-    record Sphere(Vec center, double radius, Material material) implements Primitive {}
+    record Sphere(Vec center, double radius, Material material) implements Primitive {
+        public Vec normalAt(Vec point) { return point.minus(center).times(1 / radius); } // SPH-5
+    }
 
     /** A corner, the way from it to the other two, and the shape's own normal. */
-    record Triangle(Vec a, Vec ab, Vec ac, Vec normal, Material material) implements Primitive {}
+    record Triangle(Vec a, Vec ab, Vec ac, Vec normal, Material material) implements Primitive {
+        public Vec normalAt(Vec point) { return normal; }
+    }
+
+    record Plane(Vec point, Vec normal, Material material) implements Primitive {
+        public Vec normalAt(Vec point) { return normal; }
+    }
 
     /** A point light, or a directional one, which has a direction in place of a position. */
     record Light(Vec position, Vec direction, Vec intensity, double constant, double linear, double quadratic, boolean isClamped) {}
@@ -63,6 +72,7 @@ final class Scene {
     final Map<String, Material> materials = new HashMap<>();
     final List<Sphere> spheres = new ArrayList<>();
     final List<Triangle> triangles = new ArrayList<>();
+    final List<Plane> planes = new ArrayList<>();
 
     Scene(Path path) throws IOException {
         Map<?, ?> stated = (Map<?, ?>) Json.read(Files.readString(path));
@@ -154,6 +164,10 @@ final class Scene {
         Material material = materials.get(stated.get("material"));
         if (stated.get("shape").equals("sphere")) {
             spheres.add(new Sphere(vec(stated.get("center")), (Double) stated.get("radius"), material));
+            return;
+        }
+        if (stated.get("shape").equals("plane")) {
+            planes.add(new Plane(vec(stated.get("point")), vec(stated.get("normal")).unit(), material)); // PLANE-4
             return;
         }
         List<Vec> vertices = new ArrayList<>();

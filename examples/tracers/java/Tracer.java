@@ -15,7 +15,11 @@ final class Tracer {
     record Ray(Scene.Vec origin, Scene.Vec direction, Scene.Primitive leaves) {}
 
     /** The nearest hit; its primitive is null where nothing is hit. */
-    record Hit(double distance, Scene.Primitive primitive) {}
+    record Hit(double distance, Scene.Primitive primitive) {
+        Hit orNearer(double other, Scene.Primitive found) {
+            return other < distance ? new Hit(other, found) : this;
+        }
+    }
 
     private static final double FAR = Double.POSITIVE_INFINITY;
     private final Scene scene;
@@ -52,32 +56,26 @@ final class Tracer {
         return distance > 0 ? distance : FAR;
     }
 
-    /** TRAV-1, TRAV-3: of equals the first stays. */
-    private Hit firstHit(Ray ray) {
-        double nearest = FAR;
-        Scene.Primitive primitive = null;
-        for (Scene.Sphere sphere : scene.spheres) {
-            double distance = meet(ray, sphere);
-            if (distance < nearest) {
-                nearest = distance;
-                primitive = sphere;
-            }
-        }
-        for (Scene.Triangle triangle : scene.triangles) {
-            double distance = meet(ray, triangle);
-            if (distance < nearest) {
-                nearest = distance;
-                primitive = triangle;
-            }
-        }
-        return new Hit(nearest, primitive);
+    /** The distance to the plane, or infinity. PLANE-1 to PLANE-3. */
+    private static double meet(Ray ray, Scene.Plane plane) {
+        double along = ray.direction.dot(plane.normal());
+        if (ray.leaves == plane || along == 0) return FAR;
+        double distance = plane.point().minus(ray.origin).dot(plane.normal()) / along;
+        return distance > 0 ? distance : FAR;
+    }
+
+    /** The nearest hit that is nearer than `limit`. TRAV-1, TRAV-3: of equals the first stays. */
+    private Hit firstHit(Ray ray, double limit) {
+        Hit hit = new Hit(limit, null);
+        for (Scene.Sphere sphere : scene.spheres) hit = hit.orNearer(meet(ray, sphere), sphere);
+        for (Scene.Triangle triangle : scene.triangles) hit = hit.orNearer(meet(ray, triangle), triangle);
+        for (Scene.Plane plane : scene.planes) hit = hit.orNearer(meet(ray, plane), plane);
+        return hit;
     }
 
     /** Whether anything lies between the ray's start and the light. SHAD-1 to SHAD-4. */
     private boolean isHidden(Ray toLight, double lightDistance) {
-        for (Scene.Sphere sphere : scene.spheres) if (meet(toLight, sphere) < lightDistance) return true;
-        for (Scene.Triangle triangle : scene.triangles) if (meet(toLight, triangle) < lightDistance) return true;
-        return false;
+        return firstHit(toLight, lightDistance).primitive != null;
     }
 
     /** BG-1. */
@@ -118,12 +116,10 @@ final class Tracer {
 
     /** The light that comes back along a ray which has `depth` reflections and refractions left. TREE. */
     private Scene.Vec radiance(Ray ray, Scene.Material medium, int depth) {
-        Hit hit = firstHit(ray);
+        Hit hit = firstHit(ray, FAR);
         if (hit.primitive == null) return background(ray.direction); // BG-3: not absorbed
         Scene.Vec point = ray.origin.plus(ray.direction.times(hit.distance));
-        Scene.Vec normal = hit.primitive instanceof Scene.Sphere sphere
-            ? point.minus(sphere.center()).times(1 / sphere.radius()) // SPH-5
-            : ((Scene.Triangle) hit.primitive).normal();
+        Scene.Vec normal = hit.primitive.normalAt(point);
         boolean enters = ray.direction.dot(normal) < 0; // ILL-1
         if (!enters) normal = normal.times(-1);
         Scene.Vec mirrorDirection = ray.direction.minus(normal.times(2 * ray.direction.dot(normal))); // REFL-1

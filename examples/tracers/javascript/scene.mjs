@@ -26,10 +26,12 @@ export function load(path) {
     lights: (stated.lights ?? []).map(readLight),
     spheres: [],
     triangles: [],
+    planes: [],
   };
   for (const shape of stated.objects) {
     const material = materials.get(shape.material);
     if (shape.shape === "sphere") scene.spheres.push({ center: shape.center, radius: shape.radius, material });
+    else if (shape.shape === "plane") scene.planes.push({ point: shape.point, normal: unit(shape.normal), material }); // PLANE-4
     else for (const triangle of readTriangles(shape, dirname(path), material)) scene.triangles.push(triangle);
   }
   return scene;

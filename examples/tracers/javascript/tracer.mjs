@@ -34,27 +34,32 @@ function meetTriangle(ray, triangle) {
   return distance > 0 ? distance : Infinity;
 }
 
-// The nearest hit. TRAV-1, TRAV-3: of equals the first stays.
-function firstHit(scene, ray) {
-  let distance = Infinity;
-  let primitive = null;
-  for (const sphere of scene.spheres) {
-    const candidate = meetSphere(ray, sphere);
-    if (candidate < distance) [distance, primitive] = [candidate, sphere];
-  }
-  for (const triangle of scene.triangles) {
-    const candidate = meetTriangle(ray, triangle);
-    if (candidate < distance) [distance, primitive] = [candidate, triangle];
-  }
-  return { distance, primitive };
+// The distance to the plane, or infinity. PLANE-1 to PLANE-3.
+function meetPlane(ray, plane) {
+  const along = dot(ray.direction, plane.normal);
+  if (ray.leaves === plane || along === 0) return Infinity;
+  const distance = dot(subtract(plane.point, ray.origin), plane.normal) / along;
+  return distance > 0 ? distance : Infinity;
+}
+
+// The nearest hit that is nearer than `limit`. TRAV-1, TRAV-3: of equals the first stays.
+function firstHit(scene, ray, limit = Infinity) {
+  const hit = { distance: limit, primitive: null };
+  const search = (primitives, meet) => {
+    for (const primitive of primitives) {
+      const distance = meet(ray, primitive);
+      if (distance < hit.distance) Object.assign(hit, { distance, primitive });
+    }
+  };
+  search(scene.spheres, meetSphere);
+  search(scene.triangles, meetTriangle);
+  search(scene.planes, meetPlane);
+  return hit;
 }
 
 // Whether anything lies between the ray's start and the light. SHAD-1 to SHAD-4.
 function isHidden(scene, ray, lightDistance) {
-  return (
-    scene.spheres.some((sphere) => meetSphere(ray, sphere) < lightDistance) ||
-    scene.triangles.some((triangle) => meetTriangle(ray, triangle) < lightDistance)
-  );
+  return firstHit(scene, ray, lightDistance).primitive !== null;
 }
 
 // BG-1

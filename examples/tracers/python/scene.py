@@ -65,6 +65,15 @@ class Triangle:
     material: Material
 
 
+@dataclass(slots=True, eq=False)
+class Plane:
+    """All points of a plane; the normal is a unit vector."""
+
+    point: Vec
+    normal: Vec
+    material: Material
+
+
 @dataclass(slots=True)
 class Cluster:
     """Triangles, and a sphere around them: a ray that misses it misses them all."""
@@ -114,6 +123,7 @@ class Scene:
     lights: list[Light]
     spheres: list[Sphere]
     clusters: list[Cluster]
+    planes: list[Plane]
 
 
 def load(path: Path) -> Scene:
@@ -126,10 +136,15 @@ def load(path: Path) -> Scene:
         for shape in stated["objects"]
         if shape["shape"] == "sphere"
     ]
+    planes = [
+        Plane(tuple(shape["point"]), unit(shape["normal"]), materials[shape["material"]])  # PLANE-4
+        for shape in stated["objects"]
+        if shape["shape"] == "plane"
+    ]
     triangles = [
         triangle
         for shape in stated["objects"]
-        if shape["shape"] != "sphere"
+        if shape["shape"] in {"triangle", "mesh"}
         for triangle in _triangles(shape, path.parent, materials[shape["material"]])
     ]
     return Scene(
@@ -142,6 +157,7 @@ def load(path: Path) -> Scene:
         lights=[_light(light) for light in stated.get("lights") or ()],
         spheres=spheres,
         clusters=[_cluster(triangles[i : i + CLUSTER_SIZE]) for i in range(0, len(triangles), CLUSTER_SIZE)],
+        planes=planes,
     )
 
 

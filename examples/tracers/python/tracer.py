@@ -10,9 +10,15 @@ from array import array
 from dataclasses import dataclass
 from math import exp, inf, pi, sqrt
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from scene import BLACK, Camera, Light, Material, Scene, Sphere, Triangle, load, may_meet
+from scene import BLACK, Camera, Light, Material, Plane, Scene, Sphere, Triangle, load, may_meet
 from vectors import Vec, add, cross, dot, length, multiply, scale, subtract, unit
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+Primitive = Sphere | Triangle | Plane
 
 
 @dataclass(slots=True)
@@ -21,7 +27,7 @@ class Ray:
 
     origin: Vec
     direction: Vec
-    leaves: Sphere | Triangle | None = None
+    leaves: Primitive | None = None
 
 
 def meet_sphere(ray: Ray, sphere: Sphere) -> float:
@@ -57,32 +63,39 @@ def meet_triangle(ray: Ray, triangle: Triangle) -> float:
     return distance if distance > 0 else inf
 
 
-def first_hit(scene: Scene, ray: Ray) -> tuple[float, Sphere | Triangle | None]:
-    """The nearest hit: its distance and its primitive. TRAV-1, TRAV-3: of equals the first stays."""
-    nearest, primitive = inf, None
+def meet_plane(ray: Ray, plane: Plane) -> float:
+    """The distance to the plane, or infinity. PLANE-1 to PLANE-3."""
+    along = dot(ray.direction, plane.normal)
+    if along == 0 or ray.leaves is plane:
+        return inf
+    distance = dot(subtract(plane.point, ray.origin), plane.normal) / along
+    return distance if distance > 0 else inf
+
+
+def hits(scene: Scene, ray: Ray) -> Iterator[tuple[float, Primitive]]:
+    """The distances to all primitives in their order (TRAV-2), but to triangles that the ray surely misses."""
     for sphere in scene.spheres:
-        distance = meet_sphere(ray, sphere)
-        if distance < nearest:
-            nearest, primitive = distance, sphere
+        yield meet_sphere(ray, sphere), sphere
     for cluster in scene.clusters:
         if may_meet(ray.origin, ray.direction, cluster):
             for triangle in cluster.triangles:
-                distance = meet_triangle(ray, triangle)
-                if distance < nearest:
-                    nearest, primitive = distance, triangle
-    return nearest, primitive
+                yield meet_triangle(ray, triangle), triangle
+    for plane in scene.planes:
+        yield meet_plane(ray, plane), plane
+
+
+def first_hit(scene: Scene, ray: Ray) -> tuple[float, Primitive | None]:
+    """The nearest hit: its distance and its primitive. TRAV-1, TRAV-3: of equals the first stays."""
+    nearest, hit = inf, None
+    for distance, primitive in hits(scene, ray):
+        if distance < nearest:
+            nearest, hit = distance, primitive
+    return nearest, hit
 
 
 def is_hidden(scene: Scene, ray: Ray, light_distance: float) -> bool:
     """Whether anything lies between the ray's start and the light. SHAD-1 to SHAD-4."""
-    if any(meet_sphere(ray, sphere) < light_distance for sphere in scene.spheres):
-        return True
-    return any(
-        meet_triangle(ray, triangle) < light_distance
-        for cluster in scene.clusters
-        if may_meet(ray.origin, ray.direction, cluster)
-        for triangle in cluster.triangles
-    )
+    return any(distance < light_distance for distance, _ in hits(scene, ray))
 
 
 def background(scene: Scene, direction: Vec) -> Vec:
@@ -133,7 +146,7 @@ def radiance(scene: Scene, ray: Ray, medium: Material | None, depth: int) -> Vec
     if isinstance(primitive, Sphere):
         normal = scale(1 / primitive.radius, subtract(point, primitive.center))  # SPH-5
     else:
-        normal = primitive.normal  # TRI-4
+        normal = primitive.normal
     enters = dot(ray.direction, normal) < 0  # ILL-1
     if not enters:
         normal = scale(-1, normal)

@@ -109,6 +109,7 @@ pub enum Shape {
     Sphere { center: Vec3, radius: f64 },
     /// A corner, the way from it to the other two, and the shape's own normal.
     Triangle { a: Vec3, ab: Vec3, ac: Vec3, normal: Vec3 },
+    Plane { point: Vec3, normal: Vec3 },
 }
 
 pub struct Primitive {
@@ -150,7 +151,7 @@ pub struct Scene {
     pub ambient_light: Vec3,
     pub lights: Vec<Light>,
     pub materials: Vec<Material>,
-    pub primitives: Vec<Primitive>, // all spheres, then all triangles: TRAV-2
+    pub primitives: Vec<Primitive>, // all spheres, then all triangles, then all planes: TRAV-2
 }
 
 type Numbers<'a> = HashMap<&'a str, usize>; // of materials
@@ -161,10 +162,13 @@ pub fn load(path: &Path) -> Scene {
     let named: Vec<(&String, &Json)> = json.at("materials").members().iter().collect();
     let numbers: Numbers = named.iter().enumerate().map(|(number, (name, _))| (name.as_str(), number)).collect();
     let background = |key| json.get("background").map_or(Vec3::default(), |b| vec(b.get("color").unwrap_or_else(|| b.at(key))));
-    let is_sphere = |object: &&Json| object.at("shape").text() == "sphere";
-    let objects = json.at("objects").list();
-    let spheres = objects.iter().filter(is_sphere).map(|object| sphere(object, &numbers));
-    let triangles = objects.iter().filter(|object| !is_sphere(object)).flat_map(|object| triangles(object, path, &numbers));
+    let mut primitives: Vec<Primitive> =
+        json.at("objects").list().iter().flat_map(|object| shapes(object, path, &numbers)).collect();
+    primitives.sort_by_key(|primitive| match primitive.shape {
+        Shape::Sphere { .. } => 0,
+        Shape::Triangle { .. } => 1,
+        Shape::Plane { .. } => 2,
+    }); // which leaves those of one kind in their order
     Scene {
         is_radiometric: json.at("convention").text() == "radiometric",
         max_depth: json.get("max_depth").map_or(0, |depth| depth.number() as usize),
@@ -174,7 +178,7 @@ pub fn load(path: &Path) -> Scene {
         ambient_light: json.get("ambient_light").map_or(Vec3::default(), vec),
         lights: json.get("lights").map_or(vec![], |lights| lights.list().iter().map(light).collect()),
         materials: named.iter().map(|(_, terms)| material(terms, &numbers)).collect(),
-        primitives: spheres.chain(triangles).collect(),
+        primitives,
     }
 }
 
@@ -257,13 +261,17 @@ fn material(json: &Json, numbers: &Numbers) -> Material {
     }
 }
 
-fn sphere(json: &Json, numbers: &Numbers) -> Primitive {
-    let shape = Shape::Sphere { center: vec(json.at("center")), radius: json.at("radius").number() };
-    Primitive { shape, material: numbers[json.at("material").text()] }
+fn shapes(json: &Json, scene_file: &Path, numbers: &Numbers) -> Vec<Primitive> {
+    let shapes = match json.at("shape").text() {
+        "sphere" => vec![Shape::Sphere { center: vec(json.at("center")), radius: json.at("radius").number() }],
+        "plane" => vec![Shape::Plane { point: vec(json.at("point")), normal: vec(json.at("normal")).unit() }], // PLANE-4
+        _ => triangles(json, scene_file),
+    };
+    let material = numbers[json.at("material").text()];
+    shapes.into_iter().map(|shape| Primitive { shape, material }).collect()
 }
 
-fn triangles(json: &Json, scene_file: &Path, numbers: &Numbers) -> Vec<Primitive> {
-    let material = numbers[json.at("material").text()];
+fn triangles(json: &Json, scene_file: &Path) -> Vec<Shape> {
     let (vertices, faces) = match json.get("file") {
         Some(file) => read_obj(&scene_file.with_file_name(file.text())),
         None => {
@@ -278,8 +286,7 @@ fn triangles(json: &Json, scene_file: &Path, numbers: &Numbers) -> Vec<Primitive
         for pair in face[1..].windows(2) {
             // a face of more corners is a fan
             let (ab, ac) = (vertices[pair[0]] - a, vertices[pair[1]] - a);
-            let shape = Shape::Triangle { a, ab, ac, normal: ab.cross(ac).unit() }; // TRI-4
-            result.push(Primitive { shape, material });
+            result.push(Shape::Triangle { a, ab, ac, normal: ab.cross(ac).unit() }); // TRI-4
         }
     }
     result

@@ -20,8 +20,9 @@ struct Ray {
 fn meet(ray: &Ray, shape: &Shape, is_own: bool) -> f64 {
     match shape {
         Shape::Sphere { center, radius } => meet_sphere(ray, *center, *radius, is_own),
-        Shape::Triangle { .. } if is_own => INFINITY, // TRI-3
+        Shape::Triangle { .. } | Shape::Plane { .. } if is_own => INFINITY, // TRI-3, PLANE-3
         Shape::Triangle { a, ab, ac, .. } => meet_triangle(ray, *a, *ab, *ac),
+        Shape::Plane { point, normal } => meet_plane(ray, *point, *normal),
     }
 }
 
@@ -62,6 +63,13 @@ fn meet_triangle(ray: &Ray, a: Vec3, ab: Vec3, ac: Vec3) -> f64 {
     }
     let distance = ac.dot(q) / determinant;
     if distance > 0.0 { distance } else { INFINITY }
+}
+
+/// PLANE-1, PLANE-2.
+fn meet_plane(ray: &Ray, point: Vec3, normal: Vec3) -> f64 {
+    let along = ray.direction.dot(normal);
+    let distance = (point - ray.origin).dot(normal) / along;
+    if along != 0.0 && distance > 0.0 { distance } else { INFINITY }
 }
 
 impl Scene {
@@ -134,7 +142,7 @@ impl Scene {
         let point = ray.origin + distance * ray.direction;
         let own_normal = match primitive.shape {
             Shape::Sphere { center, radius } => (point - center) / radius, // SPH-5
-            Shape::Triangle { normal, .. } => normal,
+            Shape::Triangle { normal, .. } | Shape::Plane { normal, .. } => normal,
         };
         let enters = ray.direction.dot(own_normal) < 0.0; // ILL-1
         let normal = if enters { own_normal } else { -own_normal };
