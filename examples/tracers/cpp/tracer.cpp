@@ -157,7 +157,8 @@ Vec radiance(const Ray& ray, const Material* medium, int depth) {
     int spheres = int(scene.spheres.size()), triangles = int(scene.triangles.size());
     if (hit.primitive < spheres) {
         const Sphere& sphere = scene.spheres[hit.primitive];
-        found = sphere.material, normal = (point - sphere.center) / sphere.radius;  // SPH-5
+        // SPH-5; a unit vector whatever the rounding, since errors of its length grow with each reflection.
+        found = sphere.material, normal = unit(point - sphere.center);
     } else if (hit.primitive < spheres + triangles) {
         const Triangle& triangle = scene.triangles[hit.primitive - spheres];
         found = triangle.material, normal = unit(cross(triangle.ab, triangle.ac));  // TRI-4

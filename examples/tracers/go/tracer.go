@@ -79,7 +79,7 @@ func (plane *Plane) meet(ray *Ray, isOwn bool) float64 {
 }
 
 func (sphere *Sphere) normalAt(point Vec) Vec {
-	return point.minus(sphere.center).times(1 / sphere.radius) // SPH-5
+	return point.minus(sphere.center).unit() // SPH-5
 }
 func (triangle *Triangle) normalAt(Vec) Vec { return triangle.normal }
 func (plane *Plane) normalAt(Vec) Vec       { return plane.normal }

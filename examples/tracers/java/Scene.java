@@ -47,7 +47,7 @@ final class Scene {
     }
 
     record Sphere(Vec center, double radius, Material material) implements Primitive {
-        public Vec normalAt(Vec point) { return point.minus(center).times(1 / radius); } // SPH-5
+        public Vec normalAt(Vec point) { return point.minus(center).unit(); } // SPH-5
     }
 
     /** A corner, the way from it to the other two, and the shape's own normal. */

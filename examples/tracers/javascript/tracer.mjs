@@ -102,7 +102,7 @@ function radiance(scene, ray, medium, depth) {
   if (!primitive) return background(scene, ray.direction); // BG-3: not absorbed
   const point = add(ray.origin, scale(distance, ray.direction));
   const isSphere = "radius" in primitive;
-  let normal = isSphere ? scale(1 / primitive.radius, subtract(point, primitive.center)) : primitive.normal; // SPH-5
+  let normal = isSphere ? unit(subtract(point, primitive.center)) : primitive.normal; // SPH-5
   const enters = dot(ray.direction, normal) < 0; // ILL-1
   if (!enters) normal = scale(-1, normal);
   const mirrorDirection = subtract(ray.direction, scale(2 * dot(ray.direction, normal), normal)); // REFL-1

@@ -143,10 +143,8 @@ def radiance(scene: Scene, ray: Ray, medium: Material | None, depth: int) -> Vec
     if primitive is None:
         return background(scene, ray.direction)  # BG-3: not absorbed
     point = add(ray.origin, scale(distance, ray.direction))
-    if isinstance(primitive, Sphere):
-        normal = scale(1 / primitive.radius, subtract(point, primitive.center))  # SPH-5
-    else:
-        normal = primitive.normal
+    is_sphere = isinstance(primitive, Sphere)
+    normal = unit(subtract(point, primitive.center)) if is_sphere else primitive.normal  # SPH-5
     enters = dot(ray.direction, normal) < 0  # ILL-1
     if not enters:
         normal = scale(-1, normal)

@@ -141,7 +141,7 @@ impl Scene {
         let primitive = &self.primitives[number];
         let point = ray.origin + distance * ray.direction;
         let own_normal = match primitive.shape {
-            Shape::Sphere { center, radius } => (point - center) / radius, // SPH-5
+            Shape::Sphere { center, .. } => (point - center).unit(), // SPH-5
             Shape::Triangle { normal, .. } | Shape::Plane { normal, .. } => normal,
         };
         let enters = ray.direction.dot(own_normal) < 0.0; // ILL-1
