@@ -27,7 +27,7 @@ from raytruth.output import progress, tell
 from raytruth.reports.console import print_matrix
 from raytruth.reports.wording import printable
 from raytruth.scenes.library import library_names
-from raytruth.written_report import written_report
+from raytruth.written_report import ReportFiles, written_report
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -50,6 +50,8 @@ def run(
     fresh: Annotated[bool, Parameter(negative="")] = False,
     strict: Annotated[bool, Parameter(negative="")] = False,
     quick: Annotated[bool, Parameter(negative="")] = False,
+    junit: Path | None = None,
+    summary: Path | None = None,
     as_json: AsJson = False,
 ) -> int:
     """Run the conformance matrix: scenes × renderers, each cell judged against the truth.
@@ -80,12 +82,19 @@ def run(
     quick
         Only the quick suite: few scenes with small images, which still find every fault of the catalogue
         (`raytruth faults`).
+    junit
+        Write the verdicts in the results directory to this file, too, as JUnit XML: a test for each cell.
+    summary
+        Write a summary of it to this file, too, in Markdown, as GitHub shows it of a job:
+        `--summary "$GITHUB_STEP_SUMMARY"`.
     as_json
         Print the results as one JSON document instead of the table.
     """
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
     expect_folder(out)
+    files = ReportFiles(junit, summary)
+    files.expect_places()
     required = _selected("--require", require) if require else {}
     selected = _selected("--renderer", renderer) | required
     known_failures = _waivers(waivers)
@@ -109,6 +118,7 @@ def run(
         cells, unmatched = apply_waivers(known_failures, cells, plan.versions)
         results = write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), cells)
         report = written_report(out, unless_current=True)
+        files.write(out, strict=strict)
     _show(results, report, as_json)
     return _status(cells, _missing(required, plan), unmatched, strict=strict)
 
