@@ -24,6 +24,7 @@ from raytruth.comparisons.renderers.protocol import why_unavailable
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, expect_folder, open_scene
 from raytruth.output import progress, tell
+from raytruth.programs import programs_of
 from raytruth.reports.console import print_matrix
 from raytruth.reports.wording import printable
 from raytruth.scenes.library import library_names
@@ -43,6 +44,8 @@ FAILED = 1
 def run(
     *scenes: str,
     renderer: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    renderer_command: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    renderer_file: Annotated[tuple[Path, ...], Parameter(negative="")] = (),
     require: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     out: Path = Path("results"),
     jobs: int | None = None,
@@ -67,6 +70,12 @@ def run(
         Names of library scenes, or paths of scene files; the whole library by default.
     renderer
         Only this renderer; all by default. May be given several times, or several names with commas.
+    renderer_command
+        A program of your own, as in `--renderer-command 'mine=./tracer {scene} {output}'`: it reads the scene's JSON
+        file and writes an OpenEXR picture, or another as in {output}.pfm. May be given several times.
+    renderer_file
+        A program of your own as a TOML file declares it, which `raytruth renderers --init NAME` writes to start from.
+        Where programs are given and no --renderer, only they run.
     require
         Renderers that must be available, on pain of exit status 1.
     out
@@ -95,9 +104,11 @@ def run(
     expect_folder(out)
     files = ReportFiles(junit, summary)
     files.expect_places()
-    required = _selected("--require", require) if require else {}
-    selected = _selected("--renderer", renderer) | required
-    known_failures = _waivers(waivers)
+    programs = programs_of(renderer_command, renderer_file)
+    known = _selected("--renderer", renderer) if renderer or not programs else {}
+    required = programs | (_selected("--require", require) if require else {})
+    selected = known | required
+    known_failures = _waivers(waivers, programs)
     if quick and scenes:
         raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
     opened = _opened(write_quick_suite(out) if quick else scenes or library_names())
@@ -144,10 +155,10 @@ def _missing(required: Mapping[str, Renderer], plan: Plan) -> dict[str, str]:
     return {name: reason for name, reason in reasons.items() if reason is not None}
 
 
-def _waivers(path: Path | None) -> tuple[Waiver, ...]:
+def _waivers(path: Path | None, programs: Mapping[str, Renderer]) -> tuple[Waiver, ...]:
     """The waivers that raytruth knows itself, and those in the file."""
     try:
-        return load_waivers() + (load_waivers(path) if path is not None else ())
+        return load_waivers() + (load_waivers(path, programs.values()) if path is not None else ())
     except WaiverError as error:
         raise UsageError(str(error)) from error
 
