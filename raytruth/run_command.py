@@ -19,10 +19,10 @@ from raytruth.comparisons.matrix.results_directory import only_run_in, with_metr
 from raytruth.comparisons.matrix.run import run_plan
 from raytruth.comparisons.matrix.waivers import WaiverError, apply_waivers, load_waivers
 from raytruth.comparisons.records.results import Verdict
-from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers
+from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers, unusable_adapters
 from raytruth.comparisons.renderers.protocol import why_unavailable
 from raytruth.errors import UsageError
-from raytruth.options import AsJson, expect_folder, open_scene
+from raytruth.options import AsJson, expect_folder, open_scenes
 from raytruth.output import progress, tell
 from raytruth.programs import programs_of
 from raytruth.reports.console import print_matrix
@@ -31,12 +31,11 @@ from raytruth.scenes.library import library_names
 from raytruth.written_report import ReportFiles, written_report
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from raytruth.comparisons.matrix.waivers import Waiver
     from raytruth.comparisons.records.results import Cell, Results
     from raytruth.comparisons.renderers.protocol import Renderer
-    from raytruth.scenes.scene import Scene
 
 FAILED = 1
 
@@ -104,6 +103,8 @@ def run(
     expect_folder(out)
     files = ReportFiles(junit, summary)
     files.expect_places()
+    for sentence in unusable_adapters():
+        tell(f"raytruth: {sentence}")
     programs = programs_of(renderer_command, renderer_file)
     known = _selected("--renderer", renderer) if renderer or not programs else {}
     required = programs | (_selected("--require", require) if require else {})
@@ -111,7 +112,7 @@ def run(
     known_failures = _waivers(waivers, programs)
     if quick and scenes:
         raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
-    opened = _opened(write_quick_suite(out) if quick else scenes or library_names())
+    opened = open_scenes(write_quick_suite(out) if quick else scenes or library_names())
     with only_run_in(out):
         _tell_damage(out)
         with progress("Looking for the renderers"):
@@ -173,17 +174,6 @@ def _split(option: str, names: Sequence[str]) -> list[str]:
     if names and not parts:
         raise UsageError(f"{option}: expected the name of a renderer, found none; see raytruth renderers.")
     return parts
-
-
-def _opened(sources: Iterable[str]) -> dict[str, Scene]:
-    """Each scene by what names it on the command line. Raises UsageError where two have the same name."""
-    opened: dict[str, Scene] = {}
-    for source in sources:
-        scene = open_scene(source)
-        if scene.name in {known.name for known in opened.values()}:
-            raise UsageError(f"There are two scenes called {scene.name!r}: give each scene file a name of its own.")
-        opened[source] = scene
-    return opened
 
 
 def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:

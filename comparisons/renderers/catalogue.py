@@ -1,4 +1,4 @@
-"""All renderers that raytruth knows."""
+"""All renderers that raytruth knows, and those that other packages bring."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.comparisons.renderers.povray import PovRay
 from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
 from raytruth.comparisons.renderers.program.finished_image import FinishedImage
+from raytruth.comparisons.renderers.third_party.entry_points import third_party
 from raytruth.comparisons.renderers.vtk.adapter import Vtk
 from raytruth.scenes.wording import quoted, suggestion
 
@@ -45,7 +46,22 @@ class UnknownRendererError(Exception):
 
 
 def all_renderers() -> dict[str, Renderer]:
-    """Each renderer by its name, available here or not."""
+    """Each renderer by its name, available here or not: ours, and those that other packages bring."""
+    own = _own_renderers()
+    return own | third_party(frozenset(own)).renderers
+
+
+def unusable_adapters() -> tuple[str, ...]:
+    """A sentence for each renderer of other packages that is left out."""
+    return third_party(frozenset(_own_renderers())).problems
+
+
+def origin_of(name: str) -> str | None:
+    """The package that a renderer comes with, and its version; None where that is no other than ours."""
+    return third_party(frozenset(_own_renderers())).origins.get(name)
+
+
+def _own_renderers() -> dict[str, Renderer]:
     renderers: tuple[Renderer, ...] = (
         mitsuba_scalar(),
         mitsuba_llvm(),

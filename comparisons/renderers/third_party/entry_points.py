@@ -1,0 +1,84 @@
+"""Finds the adapters that installed packages offer under Python's entry points (docs/adapters.md)."""
+
+from __future__ import annotations
+
+import functools
+import sys
+from dataclasses import dataclass
+from importlib.metadata import entry_points
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from raytruth.comparisons.processes.isolation import run_isolated
+from raytruth.comparisons.records.renderings import RendererError
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+    from raytruth.comparisons.renderers.protocol import Renderer
+
+GROUP = "raytruth.renderers"
+"""The group of entry points; each names a function without arguments that returns an object obeying Renderer."""
+
+# Loading an adapter renders nothing; a renderer's library may take a second or some to be imported.
+TRIAL_SECONDS = 30.0
+# Of address space: libraries of renderers with their threads reserve several gigabytes.
+TRIAL_BYTES = 16 << 30
+
+
+@dataclass(frozen=True)
+class ThirdParty:
+    """What other packages offer."""
+
+    renderers: dict[str, Renderer]
+    """Those that can be used, each by its name."""
+    origins: dict[str, str]
+    """Of each of these the package that it comes with, and its version."""
+    problems: tuple[str, ...]
+    """A sentence for each that is left out."""
+
+
+@functools.cache
+def third_party(taken: frozenset[str]) -> ThirdParty:
+    """The adapters that are installed, but for those whose names are taken; each is tried in a process of its own."""
+    renderers: dict[str, Renderer] = {}
+    origins: dict[str, str] = {}
+    problems: list[str] = []
+    found = {(_origin(point), point.name, point.value): point for point in entry_points(group=GROUP)}
+    for (origin, name, _), point in sorted(found.items()):
+        wrong = _trial(point)
+        if wrong is None:
+            renderer: Renderer = point.load()()
+            wrong = _taken(renderer.name, taken, origins)
+        if wrong is None:
+            renderers[renderer.name] = renderer
+            origins[renderer.name] = origin
+        else:
+            problems.append(f"The renderer {name!a} of the package {origin} is left out: {wrong}.")
+    return ThirdParty(renderers, origins, tuple(problems))
+
+
+def _origin(point: EntryPoint) -> str:
+    """The package that an entry point comes with, and its version."""
+    return f"{point.dist.name} {point.dist.version}" if point.dist is not None else "unknown"
+
+
+def _trial(point: EntryPoint) -> str | None:
+    """Why it cannot be used, in a clause; None if it can."""
+    command = [sys.executable, "-m", "raytruth.comparisons.renderers.third_party.trial", point.value]
+    with TemporaryDirectory(prefix="raytruth-") as folder:
+        try:
+            run_isolated(command, Path(folder), seconds=TRIAL_SECONDS, memory_bytes=TRIAL_BYTES)
+        except RendererError as error:
+            return f"its trial failed ({error})"
+    return None
+
+
+def _taken(name: str, taken: frozenset[str], origins: dict[str, str]) -> str | None:
+    """Who has the name already, in a clause; None if nobody has."""
+    if name in taken:
+        return f"the name {name} is that of one of raytruth's own renderers"
+    if name in origins:
+        return f"the name {name} is that of a renderer of the package {origins[name]}"
+    return None
