@@ -57,15 +57,13 @@ class CellTest(pytest.Item):
     def runtest(self) -> None:
         """Judge the cell."""
         cell, unmatched = self._judged.judged(self._place)
-        self.user_properties.append(("verdict", cell.verdict.value))
+        self.user_properties += [("verdict", cell.verdict.value), ("reason", printable(cell.reason))]
         if unmatched:
             raise CellFailedError(printable(unmatched[0]))
         if cell.waived is not None:
             pytest.xfail(printable(f"{cell.reason}; waived: {cell.waived.reason} {cell.waived.link}"))
         if cell.verdict in {Verdict.INCOMPARABLE, Verdict.UNAVAILABLE}:
             pytest.skip(printable(f"{cell.verdict}: {cell.reason}"))
-        if cell.verdict == Verdict.DECLARED:
-            self.add_report_section("call", "verdict", printable(f"declared: {cell.reason}"))
         if cell.verdict in {Verdict.FAIL, Verdict.ERROR} or (self._strict and cell.verdict == Verdict.DECLARED):
             raise CellFailedError(_told(cell))
 
@@ -169,9 +167,9 @@ class CellPlugin:
             return
         terminalreporter.section(NODE)
         for report in self._reports.values():
-            if report.passed and ("verdict", Verdict.DECLARED.value) in map(tuple, report.user_properties):
-                notes = (text for title, text in report.sections if title.endswith("verdict"))
-                terminalreporter.line(f"{report.nodeid} {''.join(notes)}")
+            told = dict(report.user_properties)
+            if report.passed and told.get("verdict") == Verdict.DECLARED:
+                terminalreporter.line(f"{report.nodeid} is as declared, not as due: {told['reason']}")
         terminalreporter.line(printable(self._last_words))
 
 

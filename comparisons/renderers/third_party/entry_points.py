@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -46,8 +47,11 @@ def third_party(taken: frozenset[str]) -> ThirdParty:
     origins: dict[str, str] = {}
     problems: list[str] = []
     found = {(_origin(point), point.name, point.value): point for point in entry_points(group=GROUP)}
-    for (origin, name, _), point in sorted(found.items()):
-        wrong = _trial(point)
+    with ThreadPoolExecutor() as pool:
+        trials = dict(zip(found, pool.map(_trial, found.values()), strict=True))
+    for place, point in sorted(found.items()):
+        origin, name, _ = place
+        wrong = trials[place]
         if wrong is None:
             renderer: Renderer = point.load()()
             wrong = _taken(renderer.name, taken, origins)
