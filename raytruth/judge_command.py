@@ -16,7 +16,6 @@ from raytruth.comparisons.matrix.plan import PlannedCell
 from raytruth.comparisons.matrix.results_directory import only_run_in, with_metrics, write_results
 from raytruth.comparisons.matrix.run import make_truth, run_cells
 from raytruth.comparisons.records.image_files import ImageError
-from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.program.declaration_file import DeclarationError, load_declaration
 from raytruth.comparisons.renderers.program.finished_image import FinishedImage, column_names, declared_by_itself
@@ -96,9 +95,9 @@ def _finished(images: Sequence[Path], file: Path | None, bits: int | None, *, sr
     for name, path in zip(column_names(tuple(images)), images, strict=True):
         try:
             if not path.is_file():
-                raise RendererError("expected a picture, found no file of this name")
+                raise ImageError("expected a picture, found no file of this name")
             declaration = shared or declared_by_itself(path, bits, is_srgb=srgb)
-        except (RendererError, ImageError) as error:
+        except ImageError as error:
             problems.append(f"{path}: {error}.")
             continue
         finished.append(FinishedImage(name, path, declaration, " ".join(options)))

@@ -106,9 +106,9 @@ def run(
     for sentence in unusable_adapters():
         tell(f"raytruth: {sentence}")
     programs = programs_of(renderer_command, renderer_file)
-    known = _selected("--renderer", renderer) if renderer or not programs else {}
-    required = programs | (_selected("--require", require) if require else {})
-    selected = known | required
+    # Who names a program wants it judged: one that cannot run is no success.
+    required = {**programs, **(_selected("--require", require) if require else {})}
+    selected = (_selected("--renderer", renderer) if renderer or not programs else {}) | required
     known_failures = _waivers(waivers, programs)
     if quick and scenes:
         raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
@@ -119,20 +119,31 @@ def run(
             plan = plan_run(opened, list(selected.values()), out, fresh=fresh)
         try:
             cells = _run(plan, out, jobs or os.cpu_count() or 1)
-            with progress("Measuring global differences"):
-                cells = with_metrics(out, cells)
         except KeyboardInterrupt:
             # What is finished can be shown, and the next run goes on from there.
-            finished = plan_run(opened, list(selected.values()), out, fresh=False).settled
-            waived, _ = apply_waivers(known_failures, finished, plan.versions)
-            write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), waived)
+            cells = list(plan_run(opened, list(selected.values()), out, fresh=False).settled)
+            _written(out, opened, selected, plan, cells, known_failures)
             raise
-        cells, unmatched = apply_waivers(known_failures, cells, plan.versions)
-        results = write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), cells)
+        results, cells, unmatched = _written(out, opened, selected, plan, cells, known_failures)
         report = written_report(out, unless_current=True)
         files.write(out, strict=strict)
     _show(results, report, as_json)
     return _status(cells, _missing(required, plan), unmatched, strict=strict)
+
+
+def _written(
+    out: Path,
+    opened: Mapping[str, Scene],
+    selected: Mapping[str, Renderer],
+    plan: Plan,
+    cells: Sequence[Cell],
+    known_failures: Sequence[Waiver],
+) -> tuple[Results, list[Cell], list[str]]:
+    """The results as they are written, this run's cells as they are waived, and what is told of unmatched waivers."""
+    waived, unmatched = apply_waivers(known_failures, cells, plan.versions)
+    with_versions = [(renderer, plan.versions[name]) for name, renderer in selected.items()]
+    results = write_results(out, _command(), list(opened.values()), with_versions, waived)
+    return results, waived, unmatched
 
 
 def _tell_damage(out: Path) -> None:
@@ -164,10 +175,6 @@ def _waivers(path: Path | None, programs: Mapping[str, Renderer]) -> tuple[Waive
         raise UsageError(str(error)) from error
 
 
-def _with_versions(selected: Mapping[str, Renderer], plan: Plan) -> list[tuple[Renderer, str | None]]:
-    return [(renderer, plan.versions[name]) for name, renderer in selected.items()]
-
-
 def _split(option: str, names: Sequence[str]) -> list[str]:
     """What stands between commas. Raises UsageError where an option is given and names nothing."""
     parts = [part.strip() for name in names for part in name.split(",") if part.strip()]
@@ -177,7 +184,7 @@ def _split(option: str, names: Sequence[str]) -> list[str]:
 
 
 def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:
-    """Render and judge what the plan leaves to do, saying how far it has come."""
+    """Render, judge and measure what the plan leaves to do, saying how far it has come."""
     total = sum(len(cells) for cells in plan.by_scene.values())
     cells = list(plan.settled)
     console = Console(stderr=True)
@@ -190,7 +197,8 @@ def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:
             if not console.is_terminal:
                 line = f"[{done}/{total}] {cell.scene} {cell.renderer} {cell.integrator}: {cell.verdict}"
                 tell(line)
-    return cells
+    with progress("Measuring global differences"):
+        return with_metrics(out, cells)
 
 
 def _command() -> str:

@@ -61,6 +61,8 @@ class OutputModel:
             raise ValueError("integers hold nothing outside [0, 1], so their output is clipped or bracketed")
         if self.bracketed and (self.clipped or self.numbers not in LARGEST_CODES or self.transfer != "linear"):
             raise ValueError("only linear integers are bracketed, and then they are not clipped")
+        if self.numbers == "rgbe" and self.transfer != "linear":
+            raise ValueError("colours with one exponent are linear")
 
     def interval_read(self, low: ArrayLike, high: ArrayLike) -> tuple[Array, Array]:
         """The linear values that may be read where the radiance is in [low, high]; NaN stays NaN.
@@ -101,11 +103,9 @@ class OutputModel:
         A code is 2^(e - 8), where the brightest channel is below 2^e. What is darker than 1e-32 is written as 0.
         """
         low, high = self._encoded(low, -1) * (1 - self._slack()), self._encoded(high, 1) * (1 + self._slack())
-        _, exponents = np.frexp(high.max(axis=-1, keepdims=True))
-        code = np.maximum(np.ldexp(1.0, exponents - 8), DARKEST_RGBE)
-        ends = self.linear_values(np.maximum(low - code, 0.0)), self.linear_values(high + code)
-        slack = CURVE_ROUNDOFFS * FLOAT32_ROUNDOFF if self.transfer == "sRGB" else 0.0
-        return ends[0] * (1 - slack), ends[1] * (1 + slack)
+        brightest = np.maximum(high.max(axis=-1, keepdims=True), DARKEST_RGBE)
+        code = np.maximum(np.ldexp(1.0, np.frexp(brightest)[1] - 8), DARKEST_RGBE)
+        return np.maximum(low - code, 0.0), high + code
 
     def _end_read(self, radiance: Array, side: int) -> Array:
         """The lowest (side -1) or highest (side 1) value that may be read for this radiance."""

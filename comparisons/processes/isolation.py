@@ -70,7 +70,7 @@ def run_isolated(
         if failure:
             for path in set(folder.iterdir()) - before - {log_path, scratch}:
                 _remove(path)
-            raise RendererError(f"{Path(command[0]).name} {failure}; {_end_of_log(log_path)}")
+            raise RendererError(f"{Path(command[0]).name} {failure}; {end_of_log(log_path)}")
     finally:
         _remove(scratch)
 
@@ -194,7 +194,8 @@ def _signal_name(number: int) -> str:
         return str(number)
 
 
-def _end_of_log(path: Path) -> str:
+def end_of_log(path: Path) -> str:
+    """What a program said last, as a clause on one line."""
     with path.open("rb") as log:
         log.seek(0, os.SEEK_END)
         log.seek(max(0, log.tell() - _CHUNK_BYTES))

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from raytruth.comparisons.processes.isolation import LOG_FILE, run_isolated
+from raytruth.comparisons.processes.isolation import LOG_FILE, end_of_log, run_isolated
 from raytruth.comparisons.records.image_files import ImageError
 from raytruth.comparisons.records.renderings import FirstHits, RendererError, Rendering
 from raytruth.comparisons.renderers.program.command import filled_command, named_files
@@ -121,15 +121,10 @@ class ProgramRenderer:
         work.mkdir()
         try:
             return self._rendering(scene.model_copy(update={"max_depth": depth}), work)
-        except ImageError as error:  # of a folder's name that OpenImageIO cannot read
-            raise RendererError(str(error)) from error
         except OSError as error:
             raise RendererError(f"its folder is not as it was made: {error.strerror}") from error
         finally:
-            for name in (LOG_FILE, self._output):
-                if (work / name).is_file():
-                    (work / name).replace(folder / name)
-            shutil.rmtree(work, ignore_errors=True)
+            _keep_only(folder, work, (LOG_FILE, self._output))
 
     def command(self, source: str) -> str:
         """What runs it again on a scene."""
@@ -145,9 +140,12 @@ class ProgramRenderer:
         scene_file = FORMATS[self.declaration.reads].write(scene, work)
         start = time.perf_counter()
         seeds = range(1, sampling.batches + 1) if sampling.samples else range(1, 2)
-        pictures = [self._picture(scene, scene_file, seed, work) for seed in seeds]
-        seconds = time.perf_counter() - start
-        hits = self._first_hits(scene, work)
+        try:
+            pictures = [self._picture(scene, scene_file, seed, work) for seed in seeds]
+            seconds = time.perf_counter() - start
+            hits = self._first_hits(scene, work)
+        except ImageError as error:
+            raise RendererError(f"{error}; {end_of_log(work / LOG_FILE)}") from error
         if not sampling.samples:
             return Rendering(pictures[0], seconds, hits)
         batches = np.stack(pictures)
@@ -191,3 +189,14 @@ class ProgramRenderer:
             file_bytes=declared.limits.output_mib * MEBIBYTE,
             environment=declared.environment,
         )
+
+
+def _keep_only(folder: Path, work: Path, names: tuple[str, ...]) -> None:
+    """Leave in the folder these files of the work folder and nothing else, also nothing that was put beside it."""
+    kept = [name for name in names if (work / name).is_file() and not (work / name).is_symlink()]
+    for path in folder.iterdir():
+        if path != work:
+            shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
+    for name in kept:
+        (work / name).replace(folder / name)
+    shutil.rmtree(work, ignore_errors=True)

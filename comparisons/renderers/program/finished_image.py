@@ -68,7 +68,7 @@ class FinishedImage:
         try:
             image = read_output(self.path, declared, size, output_model_of(declared))
         except (ImageError, OSError) as error:
-            raise RendererError(f"{self.path} cannot be read: {error}") from error
+            raise RendererError(str(error)) from error
         return Rendering(np.ascontiguousarray(image), 0.0)
 
     def command(self, source: str) -> str:
@@ -77,13 +77,13 @@ class FinishedImage:
 
 
 def declared_by_itself(path: Path, bits: int | None, *, is_srgb: bool) -> Declaration:
-    """The declaration of a picture by its ending and its header. Raises RendererError for what is no picture."""
+    """The declaration of a picture by its ending and its header. Raises ImageError for what is no picture."""
     form: Format | None = next((known for known in FORMATS if path.suffix.lower() == f".{known}"), None)
     if form is None:
-        raise RendererError(f"its name does not end in {', '.join(f'.{known}' for known in FORMATS)}")
+        raise ImageError(f"its name does not end in {', '.join(f'.{known}' for known in FORMATS)}")
     numbers = None if form == "hdr" else stored_numbers(path)
     if numbers is not None and numbers not in FORMATS[form][1]:
-        raise RendererError(f"it holds {numbers} numbers, which no {form} does")
+        raise ImageError(f"it holds {numbers} numbers, which no {form} does")
     return Declaration(
         name="picture",
         command=("{scene}", "{output}"),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.comparisons.records.image_files import ImageError, read_channels
-from raytruth.comparisons.records.renderings import FirstHits, RendererError
+from raytruth.comparisons.records.renderings import FirstHits
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -20,16 +20,13 @@ CHANNELS = ("Z", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "id")
 
 
 def read_first_hits(path: Path, size: tuple[int, int]) -> FirstHits:
-    """The first hits in a file of a size, (height, width). Raises RendererError for what is none.
+    """The first hits in a file of a size, (height, width). Raises ImageError for what is none.
 
     Channels besides CHANNELS do not matter.
     """
-    try:
-        pixels, names = read_channels(path, lambda names: set(CHANNELS) <= set(names), ", ".join(CHANNELS))
-    except ImageError as error:
-        raise RendererError(f"its first hits cannot be read: {error}") from error
+    pixels, names = read_channels(path, lambda names: set(CHANNELS) <= set(names), ", ".join(CHANNELS))
     if pixels.shape[:2] != size:
-        raise RendererError(
+        raise ImageError(
             f"its {path.name} has {pixels.shape[1]}x{pixels.shape[0]} pixels, expected {size[1]}x{size[0]}"
         )
     channels = pixels[..., [names.index(name) for name in CHANNELS]].astype(np.float64)
@@ -39,5 +36,5 @@ def read_first_hits(path: Path, size: tuple[int, int]) -> FirstHits:
 def _whole(path: Path, numbers: NDArray[np.float64]) -> NDArray[np.int64]:
     # Beyond 2^24 float32 does not hold each whole number; no scene has as many primitives.
     if not (np.isfinite(numbers) & (np.abs(numbers) < 2**24) & (numbers == np.rint(numbers))).all():
-        raise RendererError(f"expected whole numbers in the channel id of its {path.name}, found others")
+        raise ImageError(f"expected whole numbers in the channel id of its {path.name}, found others")
     return numbers.astype(np.int64)

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 import numpy as np
 import OpenImageIO
 
-from raytruth.comparisons.records.image_files import error_text, name_for_openimageio
-from raytruth.comparisons.records.renderings import RendererError
+from raytruth.comparisons.records.image_files import ImageError, error_text, name_for_openimageio
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -44,7 +43,7 @@ def numbers_of(form: Format, stated: Numbers | None) -> ModelNumbers:
 
 
 def stored_numbers(path: Path) -> Numbers:
-    """Which numbers a file holds, by its header. Raises RendererError for what is no picture of a known format."""
+    """Which numbers a file holds, by its header. Raises ImageError for what is no picture of a known format."""
     source = _opened(path)
     try:
         return _checked_numbers(path, source.spec())
@@ -55,7 +54,7 @@ def stored_numbers(path: Path) -> Numbers:
 def read_output(path: Path, declared: Declaration, size: tuple[int, int], model: OutputModel) -> Image:
     """The linear colours in a picture of a size, (height, width), which must be as declared; flips are undone.
 
-    Only R, G and B are read. Raises RendererError, in one sentence, for a file that is missing, damaged, of another
+    Only R, G and B are read. Raises ImageError, in one sentence, for a file that is missing, damaged, of another
     format or size, or that holds other numbers.
     """
     source = _opened(path)
@@ -63,20 +62,20 @@ def read_output(path: Path, declared: Declaration, size: tuple[int, int], model:
         spec = source.spec()
         form, usual = FORMATS[declared.writes]
         if source.format_name() != form:
-            raise RendererError(f"its {path.name} is {source.format_name()}, but {declared.writes} is declared")
+            raise ImageError(f"its {path.name} is {source.format_name()}, but {declared.writes} is declared")
         numbers = declared.numbers or next(iter(usual))
         found = _checked_numbers(path, spec)
         if found != numbers:
-            raise RendererError(f"its {path.name} holds {found} numbers, but {numbers} is declared; declare {found}")
+            raise ImageError(f"its {path.name} holds {found} numbers, but {numbers} is declared; declare {found}")
         if (spec.height, spec.width) != size:
             expected = f"{size[1]}x{size[0]} pixels"
-            raise RendererError(f"its {path.name} has {spec.width}x{spec.height} pixels, expected {expected}")
+            raise ImageError(f"its {path.name} has {spec.width}x{spec.height} pixels, expected {expected}")
         channels = _colour_channels(path, spec)
         pixels = source.read_image("float" if found == "half" else found)
         if pixels is None or source.has_error:
-            raise RendererError(f"its {path.name} is damaged or incomplete ({error_text(source.geterror)})")
+            raise ImageError(f"its {path.name} is damaged or incomplete ({error_text(source.geterror)})")
     except UnicodeDecodeError as error:  # OpenImageIO's strings come from the file as they are
-        raise RendererError(f"the header of its {path.name} is damaged, a name in it is not UTF-8") from error
+        raise ImageError(f"the header of its {path.name} is damaged, a name in it is not UTF-8") from error
     finally:
         source.close()
     return unflipped(_linear(np.asarray(pixels)[..., channels], model), declared)
@@ -96,15 +95,15 @@ def _linear(pixels: NDArray[np.generic], model: OutputModel) -> Image:
 def _opened(path: Path) -> OpenImageIO.ImageInput:
     """The file as OpenImageIO opens it. A pipe or a device would have us wait for ever, and a link show other files."""
     if not path.exists():
-        raise RendererError(f"it wrote no {path.name}")
+        raise ImageError(f"it wrote no {path.name}")
     if path.is_symlink() or not path.is_file():
-        raise RendererError(f"its {path.name} is no regular file")
+        raise ImageError(f"its {path.name} is no regular file")
     hints = OpenImageIO.ImageSpec()
     hints.attribute("pnm:pfmflip", 1)  # a PFM begins with its lowest row
     hints.attribute("oiio:UnassociatedAlpha", 1)  # colours as they are in the file
     source = OpenImageIO.ImageInput.open(name_for_openimageio(path), hints)
     if source is None:
-        raise RendererError(f"its {path.name} is no picture that can be read ({error_text(OpenImageIO.geterror)})")
+        raise ImageError(f"its {path.name} is no picture that can be read ({error_text(OpenImageIO.geterror)})")
     return source
 
 
@@ -113,15 +112,15 @@ def _checked_numbers(path: Path, spec: OpenImageIO.ImageSpec) -> Numbers:
     kinds = {str(kind) for kind in (spec.channelformats or (spec.format,))}
     if spec.deep or len(kinds) != 1 or not kinds <= {"uint8", "uint16", "half", "float"}:
         found = "deep pixels" if spec.deep else " and ".join(sorted(kinds))
-        raise RendererError(f"its {path.name} holds {found}, expected uint8, uint16, half or float in all channels")
+        raise ImageError(f"its {path.name} holds {found}, expected uint8, uint16, half or float in all channels")
     bits = spec.getattribute("oiio:BitsPerSample")
     if bits not in {None, 8, 16, 32}:
-        raise RendererError(f"its {path.name} has {bits} bits a number, expected 8 or 16 (of PPM a maximum of 255)")
+        raise ImageError(f"its {path.name} has {bits} bits a number, expected 8 or 16 (of PPM a maximum of 255)")
     display = (spec.full_x, spec.full_y, spec.full_width, spec.full_height)
     if (spec.x, spec.y, spec.width, spec.height) != display:
-        raise RendererError(f"its {path.name} is cropped: its data window is not its display window")
+        raise ImageError(f"its {path.name} is cropped: its data window is not its display window")
     if spec.getattribute("Orientation") not in {None, 1}:
-        raise RendererError(f"its {path.name} has another orientation than row by row from the top left")
+        raise ImageError(f"its {path.name} has another orientation than row by row from the top left")
     kind: Numbers = kinds.pop()  # type: ignore[assignment] - it is one of four, as is checked above
     return kind
 
@@ -131,5 +130,5 @@ def _colour_channels(path: Path, spec: OpenImageIO.ImageSpec) -> list[int]:
     names = [str(name) for name in spec.channelnames]
     if len(names) > _MANY or not {"R", "G", "B"} <= set(names):
         told = ", ".join(names) if len(names) <= _MANY else str(len(names))
-        raise RendererError(f"its {path.name} has the channels {told}, expected R, G and B")
+        raise ImageError(f"its {path.name} has the channels {told}, expected R, G and B")
     return [names.index(name) for name in ("R", "G", "B")]

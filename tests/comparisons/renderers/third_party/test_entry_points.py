@@ -13,7 +13,7 @@ from raytruth.comparisons.renderers.third_party.entry_points import GROUP, Third
 from tests.comparisons.matrix.pretending import Pretender
 from tests.comparisons.renderers.third_party.installed import pretend_installed
 
-pytestmark = pytest.mark.clause("REN-8")
+pytestmark = pytest.mark.clause("REN-11")
 
 ROOT = Path(__file__).parents[4]
 EXAMPLE = ROOT / "examples" / "adapter-package" / "src"

@@ -14,7 +14,7 @@ from tests.comparisons.matrix.pretending import Pretender
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-pytestmark = pytest.mark.clause("REN-8")
+pytestmark = pytest.mark.clause("REN-11")
 
 
 class Without:
