@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.matrix.waivers import Waiver
     from raytruth.comparisons.records.results import Cell, Results
     from raytruth.comparisons.renderers.protocol import Renderer
+    from raytruth.scenes.scene import Scene
 
 FAILED = 1
 
