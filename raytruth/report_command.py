@@ -9,7 +9,7 @@ from cyclopts import Parameter
 
 from raytruth.options import AsJson  # noqa: TC001 - as above
 from raytruth.output import print_json, progress, say
-from raytruth.written_report import ReportFiles, written_report
+from raytruth.written_report import report_files, written_report
 
 
 def report(
@@ -36,8 +36,7 @@ def report(
     as_json
         Print one JSON document instead of text.
     """
-    files = ReportFiles(junit, summary)
-    files.expect_places()
+    files = report_files(junit, summary)
     with progress(f"Writing the report of {directory}"):
         path = written_report(directory)
         files.write(directory, strict=strict)

@@ -28,7 +28,7 @@ from raytruth.programs import programs_of
 from raytruth.reports.console import print_matrix
 from raytruth.reports.wording import printable
 from raytruth.scenes.library import library_names
-from raytruth.written_report import ReportFiles, written_report
+from raytruth.written_report import report_files, written_report
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -102,18 +102,11 @@ def run(
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
     expect_folder(out)
-    files = ReportFiles(junit, summary)
-    files.expect_places()
-    for sentence in unusable_adapters():
-        tell(f"raytruth: {sentence}")
+    files = report_files(junit, summary)
     programs = programs_of(renderer_command, renderer_file)
-    # Who names a program wants it judged: one that cannot run is no success.
-    required = {**programs, **(_selected("--require", require) if require else {})}
-    selected = (_selected("--renderer", renderer) if renderer or not programs else {}) | required
+    selected, required = _chosen(renderer, require, programs)
     known_failures = _waivers(waivers, programs)
-    if quick and scenes:
-        raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
-    opened = open_scenes(write_quick_suite(out) if quick else scenes or library_names())
+    opened = _opened(scenes, out, quick=quick)
     with only_run_in(out):
         _tell_damage(out)
         with progress("Looking for the renderers"):
@@ -147,11 +140,29 @@ def _written(
     return results, waived, unmatched
 
 
+def _opened(scenes: Sequence[str], out: Path, *, quick: bool) -> dict[str, Scene]:
+    """The scenes to run, each by what names it; raises UsageError for mistakes in them."""
+    if quick and scenes:
+        raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
+    return open_scenes(write_quick_suite(out) if quick else scenes or library_names())
+
+
 def _tell_damage(out: Path) -> None:
     """Say what of an earlier run's results cannot be read, if anything."""
     damage = damage_of(out)
     if damage is not None:
         tell(f"raytruth: {damage}")
+
+
+def _chosen(
+    renderer: Sequence[str], require: Sequence[str], programs: Mapping[str, Renderer]
+) -> tuple[dict[str, Renderer], dict[str, Renderer]]:
+    """The renderers to run, and those of them that must be available."""
+    for sentence in unusable_adapters():
+        tell(f"raytruth: {sentence}")
+    # Who names a program wants it judged: one that cannot run is no success.
+    required = {**programs, **(_selected("--require", require) if require else {})}
+    return (_selected("--renderer", renderer) if renderer or not programs else {}) | required, required
 
 
 def _selected(option: str, names: Sequence[str]) -> dict[str, Renderer]:

@@ -13,7 +13,6 @@ from raytruth.reports.junit import junit_xml
 from raytruth.reports.loading import load_results
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
 
@@ -23,14 +22,6 @@ class ReportFiles:
 
     junit: Path | None = None
     summary: Path | None = None
-
-    def expect_places(self) -> None:
-        """Before any work. Raises UsageError where one of the files cannot be written."""
-        for option, path in self._given():
-            if path.is_dir():
-                raise UsageError(f"{option}: expected the name of a file, but {path} is a folder.")
-            if not path.parent.is_dir():
-                raise UsageError(f"{option}: expected a file in a folder that exists, but there is no {path.parent}.")
 
     def write(self, directory: Path, *, strict: bool) -> None:
         """Write those that are asked for, each whole or not at all.
@@ -48,10 +39,15 @@ class ReportFiles:
         if self.summary is not None:
             write_whole(self.summary, job_summary(results))
 
-    def _given(self) -> Iterator[tuple[str, Path]]:
-        for option, path in (("--junit", self.junit), ("--summary", self.summary)):
-            if path is not None:
-                yield option, path
+
+def report_files(junit: Path | None, summary: Path | None) -> ReportFiles:
+    """What the options `--junit` and `--summary` ask for. Raises UsageError where a file could not be written there."""
+    for option, path in (("--junit", junit), ("--summary", summary)):
+        if path is not None and path.is_dir():
+            raise UsageError(f"{option}: expected the name of a file, but {path} is a folder.")
+        if path is not None and not path.parent.is_dir():
+            raise UsageError(f"{option}: expected a file in a folder that exists, but there is no {path.parent}.")
+    return ReportFiles(junit, summary)
 
 
 def written_report(directory: Path, *, unless_current: bool = False) -> Path:
