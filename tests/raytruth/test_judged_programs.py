@@ -112,14 +112,16 @@ def test_a_waiver_excuses_a_failure_or_is_told_to_match_nothing(
 
 
 @pytest.mark.clause("RES-4")
-@pytest.mark.parametrize("answer", [truthful, broken])
-def test_the_report_is_put_together_from_cells_that_other_processes_judged(
-    answer: Callable[[Scene, Path], Rendering], judged: JudgedPrograms
-) -> None:
-    pretender(judged).answer = answer
-    cell, _ = judged.judged(PLACE)
-    report = again(judged).write_report({PLACE})
+def test_the_report_holds_what_was_judged_here_or_in_other_processes_and_nothing_else(judged: JudgedPrograms) -> None:
+    judged.judged(PLACE)
+    again(judged).write_report({PLACE})
+    assert {cell.verdict for cell in load_results(judged.out).cells} == {Verdict.PASS}
+    changed = again(judged, installed="pretender 2", answer=broken)
+    changed.judged(PLACE)
+    refusing = Pretender(name="refusing", refusal="it is tired")
+    both = {**again(judged, installed="pretender 2").programs, "refusing": refusing}
+    report = JudgedPrograms(both, judged.scenes, (), judged.out).write_report({PLACE})
     assert report.is_file()
     results = load_results(judged.out)
-    assert [kept.verdict for kept in results.cells] == [cell.verdict]
+    assert [(cell.renderer, cell.scene, cell.verdict) for cell in results.cells] == [("pretender", "small", "error")]
     assert [scene.name for scene in results.scenes] == ["small"]

@@ -89,6 +89,11 @@ def test_any_text_is_shown_as_it_is(text: str) -> None:
     assert shown.split() == text.replace("\x1b", "�").split()
 
 
+@pytest.mark.clause("REP-2")
+def test_what_github_alone_takes_for_markup_is_escaped_too() -> None:
+    assert escaped("$x$ @a :b: #1") == r"\$x\$ \@a \:b\: \#1"
+
+
 def test_a_summary_is_never_larger_than_github_takes_and_says_what_it_leaves_out(results: Results) -> None:
     (failing,) = (cell for cell in results.cells if outcome(cell) == Verdict.FAIL)
     passing = next(cell for cell in results.cells if cell.verdict == Verdict.PASS)
@@ -98,6 +103,8 @@ def test_a_summary_is_never_larger_than_github_takes_and_says_what_it_leaves_out
         assert left is not None
         assert len(rows(summary)) + int(left[1]) == cells[1]
         assert MOST_BYTES * 0.99 < len(summary.encode()) <= MOST_BYTES
+    both = results.model_copy(update={"cells": (*copies(failing, 2_000), *copies(passing, 30_000))})
+    assert MOST_BYTES * 0.99 < len(job_summary(both).encode()) <= MOST_BYTES
 
 
 def test_a_run_without_cells_has_a_summary_too(results: Results) -> None:
