@@ -106,14 +106,14 @@ class CellPlugin:
         self._reports: dict[Place, pytest.TestReport] = {}
         self._last_words: str | None = None
         try:
-            self._judged = _judged(config)
+            self.judged = _judged(config)
         except (UsageError, OSError) as error:
             raise pytest.UsageError(str(error).replace("--renderer-", "--raytruth-")) from error
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_configure_node(self, node: Any) -> None:
         """Name the scenes to a worker of pytest-xdist: their files lie there already."""
-        node.workerinput[SCENES] = list(self._judged.scenes)
+        node.workerinput[SCENES] = list(self.judged.scenes)
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_sessionstart(self, session: pytest.Session) -> None:
@@ -121,7 +121,7 @@ class CellPlugin:
         if self._is_worker or session.config.getoption("collectonly"):
             return
         try:
-            self._lock.enter_context(only_run_in(self._judged.out))
+            self._lock.enter_context(only_run_in(self.judged.out))
         except OSError as error:
             raise pytest.UsageError(f"--raytruth-out: {error.filename}: {error.strerror}.") from error
 
@@ -129,11 +129,11 @@ class CellPlugin:
     def pytest_collection_modifyitems(self, session: pytest.Session, items: list[pytest.Item]) -> None:
         """Add the cells, before options such as `-k` choose among all tests."""
         of_column: dict[tuple[str, str], list[Place]] = {}
-        for place in self._judged.places:
+        for place in self.judged.places:
             of_column.setdefault(place[1:], []).append(place)
         for (program, integrator), places in of_column.items():
             name = f"{NODE}::{program}::{integrator}"
-            more = {"places": places, "judged": self._judged, "strict": self._strict}
+            more = {"places": places, "judged": self.judged, "strict": self._strict}
             items += CellTests.from_parent(session, name=name, nodeid=name, **more).collect()
 
     @pytest.hookimpl(wrapper=True)
@@ -156,7 +156,7 @@ class CellPlugin:
         """Put the results together, and write the report."""
         if self._reports and not self._is_worker:
             try:
-                self._last_words = f"Report: {self._judged.write_report(self._reports)}"
+                self._last_words = f"Report: {self.judged.write_report(self._reports)}"
             except (UsageError, OSError) as error:
                 self._last_words = str(error)
         self._lock.close()

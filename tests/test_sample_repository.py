@@ -91,14 +91,16 @@ def test_a_spoilt_tracer_fails_with_the_worst_pixel(after_the_workflow: Path, en
     assert re.search(r"fail: \d+ of 224 pixels lie outside their feasible sets\nWorst pixel \(", finished.stdout)
 
 
-def test_the_readme_names_each_file_and_options_that_there_are(environment: dict[str, str]) -> None:
-    files = {
-        path.relative_to(SAMPLE).as_posix() for path in SAMPLE.rglob("*") if path.is_file() and "pyc" not in path.name
-    }
-    assert set(re.findall(r"^\| `(.+?)` \|", README, re.MULTILINE)) == files - {"README.md"}
+def test_the_readme_names_each_file_and_commands_that_work(
+    after_the_workflow: Path, environment: dict[str, str]
+) -> None:
+    files = {path.relative_to(SAMPLE).as_posix() for path in SAMPLE.rglob("*.*") if path.is_file()}
+    kept = {name for name in files if not name.endswith(".pyc")}
+    assert set(re.findall(r"^\| `(.+?)` \|", README, re.MULTILINE)) == kept - {"README.md"}
     (badge,) = re.findall(r"actions/workflows/([\w.]+)/badge\.svg", README)
     assert (SAMPLE / ".github" / "workflows" / badge).is_file()
-    known = run_pytest(SAMPLE, environment, "--help").stdout
-    named = set(re.findall(r"--raytruth-\w+", README + (SAMPLE / "pytest.ini").read_text(encoding="utf-8")))
-    assert named
-    assert all(option in known for option in named)
+    chosen = {}
+    for option, value in re.findall(r"^pytest (-[km]) (\S+)", README, re.MULTILINE):
+        told = run_pytest(after_the_workflow, environment, "--collect-only", "-q", option, value).stdout
+        chosen[value] = len([line for line in told.splitlines() if "::" in line])
+    assert chosen == {"raytruth": len(quick_scenes()), "concave-mirror": 1}

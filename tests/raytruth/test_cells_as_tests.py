@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 import re
 import sys
 from types import SimpleNamespace
@@ -190,6 +191,16 @@ def test_bad_usage_is_a_sentence(
         CellPlugin(config(**given))
     assert "--renderer-" not in str(caught.value)
     assert not (folder / "results").exists()
+
+
+@pytest.mark.clause("VER-13")
+def test_a_file_of_waivers_may_be_about_the_program(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+    waiver = {"renderer": "mine", "version": "*", "scene": "fail", "integrator": "whitted", "most_failing_pixels": 3}
+    reasons = {"reason": "It is known.", "link": "https://example.org/known"}
+    (folder / "waivers.json").write_text(json.dumps([waiver | reasons]), encoding="utf-8")
+    given = {"command": [COMMAND], "scene": ["fail.json"], "waivers": "waivers.json"}
+    assert CellPlugin(config(**given)).judged.waivers[0].reason == "It is known."
 
 
 @pytest.mark.clause("RES-5")
