@@ -98,17 +98,16 @@ class CellTests(pytest.Collector):
 class CellPlugin:
     """What pytest does where a program is given, in the hooks of pytest."""
 
+    judged: JudgedPrograms
+    """All that the options name; from the start of the session on."""
+
     def __init__(self, config: pytest.Config) -> None:
-        """Read all that the options name. Raises pytest.UsageError with every mistake that it has."""
+        """For a run with these options, which are not looked at yet: `--help` needs none of what they name."""
         self._is_worker = hasattr(config, "workerinput")
         self._strict: bool = config.getoption("raytruth_strict")
         self._lock = ExitStack()
         self._reports: dict[Place, pytest.TestReport] = {}
         self._last_words: str | None = None
-        try:
-            self.judged = _judged(config)
-        except (UsageError, OSError) as error:
-            raise pytest.UsageError(str(error).replace("--renderer-", "--raytruth-")) from error
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_configure_node(self, node: Any) -> None:
@@ -117,11 +116,16 @@ class CellPlugin:
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_sessionstart(self, session: pytest.Session) -> None:
-        """Keep other runs from writing into the results directory."""
-        if self._is_worker or session.config.getoption("collectonly"):
-            return
+        """Read what the options name, and keep other runs from writing into the results directory.
+
+        Raises pytest.UsageError with every mistake that there is.
+        """
         try:
-            self._lock.enter_context(only_run_in(self.judged.out))
+            self.judged = _judged(session.config)
+            if not self._is_worker and not session.config.getoption("collectonly"):
+                self._lock.enter_context(only_run_in(self.judged.out))
+        except UsageError as error:
+            raise pytest.UsageError(str(error).replace("--renderer-", "--raytruth-")) from error
         except OSError as error:
             raise pytest.UsageError(f"--raytruth-out: {error.filename}: {error.strerror}.") from error
 

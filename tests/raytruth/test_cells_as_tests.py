@@ -168,6 +168,14 @@ def config(**given: Any) -> Any:
     return SimpleNamespace(getoption=lambda name: values.get(name, False))
 
 
+def started(**given: Any) -> CellPlugin:
+    """The plugin in a run of pytest with these options, which has begun."""
+    session: Any = SimpleNamespace(config=config(**given))
+    plugin = CellPlugin(session.config)
+    plugin.pytest_sessionstart(session)
+    return plugin
+
+
 @pytest.mark.clause("CMD-2")
 @pytest.mark.parametrize(
     ("given", "sentence"),
@@ -188,7 +196,7 @@ def test_bad_usage_is_a_sentence(
 ) -> None:
     monkeypatch.chdir(folder)
     with pytest.raises(pytest.UsageError, match=re.escape(sentence)) as caught:
-        CellPlugin(config(**given))
+        started(**given)
     assert "--renderer-" not in str(caught.value)
     assert not (folder / "results").exists()
 
@@ -200,19 +208,24 @@ def test_a_file_of_waivers_may_be_about_the_program(folder: Path, monkeypatch: p
     reasons = {"reason": "It is known.", "link": "https://example.org/known"}
     (folder / "waivers.json").write_text(json.dumps([waiver | reasons]), encoding="utf-8")
     given = {"command": [COMMAND], "scene": ["fail.json"], "waivers": "waivers.json"}
-    assert CellPlugin(config(**given)).judged.waivers[0].reason == "It is known."
+    assert started(**given).judged.waivers[0].reason == "It is known."
 
 
 @pytest.mark.clause("RES-5")
 def test_two_runs_do_not_write_into_one_directory(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
-    plugin = CellPlugin(config(command=[COMMAND], scene=["pass.json"]))
-    session: Any = SimpleNamespace(config=config())
+    given = {"command": [COMMAND], "scene": ["pass.json"]}
     with only_run_in(folder / "results"), pytest.raises(pytest.UsageError, match="another run is writing there"):
-        plugin.pytest_sessionstart(session)
-    plugin.pytest_sessionstart(session)
+        started(**given)
+    plugin = started(**given)
     with pytest.raises(OSError, match="another run"), only_run_in(folder / "results"):
         pass
     plugin.pytest_sessionfinish()
     with only_run_in(folder / "results"):
         pass
+
+
+def test_help_and_a_list_of_tests_judge_nothing(folder: Path, environment: dict[str, str]) -> None:
+    for option in ("--help", "--collect-only"):
+        assert run_pytest(folder, environment, *options("pass"), option).returncode == 0
+    assert not (folder / "results").exists()
