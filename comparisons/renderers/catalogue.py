@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.renderers.closed_form.adapter import ClosedFormRenderer
@@ -12,7 +11,6 @@ from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_llvm, mitsuba
 from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.comparisons.renderers.povray import PovRay
 from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
-from raytruth.comparisons.renderers.program.finished_image import FinishedImage
 from raytruth.comparisons.renderers.third_party.entry_points import third_party
 from raytruth.comparisons.renderers.vtk.adapter import Vtk
 from raytruth.scenes.wording import quoted, suggestion
@@ -34,13 +32,6 @@ def family_of(renderer: Renderer) -> str | None:
     return _FAMILIES.get(renderer.name, renderer.name)
 
 
-def command_of(renderer: Renderer, source: str) -> str:
-    """What judges a renderer again, on the scene that this names on the command line."""
-    if isinstance(renderer, ProgramRenderer | FinishedImage):
-        return renderer.command(source)
-    return f"raytruth run {shlex.quote(source)} --renderer {renderer.name} --fresh"
-
-
 class UnknownRendererError(Exception):
     """A name that no renderer has; the message is one sentence."""
 
@@ -54,11 +45,6 @@ def all_renderers() -> dict[str, Renderer]:
 def unusable_adapters() -> tuple[str, ...]:
     """A sentence for each renderer of other packages that is left out."""
     return third_party(frozenset(_own_renderers())).problems
-
-
-def origin_of(name: str) -> str | None:
-    """The package that a renderer comes with, and its version; None where that is no other than ours."""
-    return third_party(frozenset(_own_renderers())).origins.get(name)
 
 
 def _own_renderers() -> dict[str, Renderer]:

@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING
 
 from raytruth.comparisons.processes.isolation import run_isolated
 from raytruth.comparisons.records.renderings import RendererError
+from raytruth.comparisons.renderers.third_party.adapter import ThirdPartyRenderer
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
-
-    from raytruth.comparisons.renderers.protocol import Renderer
 
 GROUP = "raytruth.renderers"
 """The group of entry points; each names a function without arguments that returns an object obeying Renderer."""
@@ -32,10 +31,8 @@ TRIAL_BYTES = 16 << 30
 class ThirdParty:
     """What other packages offer."""
 
-    renderers: dict[str, Renderer]
+    renderers: dict[str, ThirdPartyRenderer]
     """Those that can be used, each by its name."""
-    origins: dict[str, str]
-    """Of each of these the package that it comes with, and its version."""
     problems: tuple[str, ...]
     """A sentence for each that is left out."""
 
@@ -43,8 +40,7 @@ class ThirdParty:
 @functools.cache
 def third_party(taken: frozenset[str]) -> ThirdParty:
     """The adapters that are installed, but for those whose names are taken; each is tried in a process of its own."""
-    renderers: dict[str, Renderer] = {}
-    origins: dict[str, str] = {}
+    renderers: dict[str, ThirdPartyRenderer] = {}
     problems: list[str] = []
     found = {(_origin(point), point.name, point.value): point for point in entry_points(group=GROUP)}
     with ThreadPoolExecutor() as pool:
@@ -53,14 +49,13 @@ def third_party(taken: frozenset[str]) -> ThirdParty:
         origin, name, _ = place
         wrong = trials[place]
         if wrong is None:
-            renderer: Renderer = point.load()()
-            wrong = _taken(renderer.name, taken, origins)
+            renderer = ThirdPartyRenderer(point.load()(), origin)
+            wrong = _taken(renderer.name, taken, renderers)
         if wrong is None:
             renderers[renderer.name] = renderer
-            origins[renderer.name] = origin
         else:
             problems.append(f"The renderer {name!a} of the package {origin} is left out: {wrong}.")
-    return ThirdParty(renderers, origins, tuple(problems))
+    return ThirdParty(renderers, tuple(problems))
 
 
 def _origin(point: EntryPoint) -> str:
@@ -79,10 +74,10 @@ def _trial(point: EntryPoint) -> str | None:
     return None
 
 
-def _taken(name: str, taken: frozenset[str], origins: dict[str, str]) -> str | None:
+def _taken(name: str, taken: frozenset[str], others: dict[str, ThirdPartyRenderer]) -> str | None:
     """Who has the name already, in a clause; None if nobody has."""
     if name in taken:
         return f"the name {name} is that of one of raytruth's own renderers"
-    if name in origins:
-        return f"the name {name} is that of a renderer of the package {origins[name]}"
+    if name in others:
+        return f"the name {name} is that of a renderer of the package {others[name].origin}"
     return None

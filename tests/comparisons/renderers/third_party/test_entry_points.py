@@ -5,10 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from raytruth.comparisons.matrix import cell_key
-from raytruth.comparisons.matrix.cell_key import adapter_digest
 from raytruth.comparisons.renderers import catalogue
 from raytruth.comparisons.renderers.third_party import entry_points
+from raytruth.comparisons.renderers.third_party.adapter import ThirdPartyRenderer
 from raytruth.comparisons.renderers.third_party.entry_points import GROUP, ThirdParty, third_party
 from tests.comparisons.matrix.pretending import Pretender
 from tests.comparisons.renderers.third_party.installed import pretend_installed
@@ -60,8 +59,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_the_renderers_of_an_installed_package_are_taken_with_its_version(folder: Path) -> None:
     pretend_installed(folder, "raytruth-flat", "1.2", GROUP, {"flat": "raytruth_flat:Flat"})
     found = third_party(frozenset({"povray"}))
-    assert list(found.renderers) == ["flat"]
-    assert found.origins == {"flat": "raytruth-flat 1.2"}
+    assert {name: renderer.origin for name, renderer in found.renderers.items()} == {"flat": "raytruth-flat 1.2"}
     assert found.problems == ()
 
 
@@ -88,7 +86,7 @@ def test_whatever_is_wrong_with_an_adapter_is_a_sentence_and_the_others_are_take
     pretend_installed(folder, "odd-adapters", "0.1", GROUP, points)
     pretend_installed(folder, "other-adapters", "0.2", GROUP, {"again": "odd_adapters:Flat"})
     found = third_party(frozenset({"povray"}))
-    assert found.origins == {"flat": "odd-adapters 0.1"}
+    assert {name: renderer.origin for name, renderer in found.renderers.items()} == {"flat": "odd-adapters 0.1"}
     told = {sentence.split("'")[1]: sentence for sentence in found.problems}
     causes = {
         "again": "the name flat is that of a renderer of the package odd-adapters 0.1",
@@ -108,18 +106,8 @@ def test_whatever_is_wrong_with_an_adapter_is_a_sentence_and_the_others_are_take
 
 
 def test_the_catalogue_holds_them_beside_ours(monkeypatch: pytest.MonkeyPatch) -> None:
-    stranger = Pretender(name="stranger")
-    monkeypatch.setattr(catalogue, "third_party", lambda _: ThirdParty({"stranger": stranger}, {"stranger": "x 1"}, ()))
+    stranger = ThirdPartyRenderer(Pretender(name="stranger"), "x 1")
+    monkeypatch.setattr(catalogue, "third_party", lambda _: ThirdParty({"stranger": stranger}, ("One is broken.",)))
     assert catalogue.all_renderers()["stranger"] is stranger
     assert "povray" in catalogue.all_renderers()
-    assert catalogue.origin_of("stranger") == "x 1"
-    assert catalogue.origin_of("povray") is None
-
-
-@pytest.mark.clause("RES-3")
-def test_another_version_of_the_package_makes_other_cells(monkeypatch: pytest.MonkeyPatch) -> None:
-    digests = set()
-    for origin in (None, "strange-package 1.0", "strange-package 1.1", "other-package 1.0"):
-        monkeypatch.setattr(cell_key, "origin_of", lambda _, origin=origin: origin)
-        digests.add(adapter_digest(Pretender()))
-    assert len(digests) == 4
+    assert catalogue.unusable_adapters() == ("One is broken.",)
