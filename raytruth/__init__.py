@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.error_models.output_model import OutputModel
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
     from raytruth.comparisons.records.results import DeclaredPixels, Verdict, WorstPixel
+    from raytruth.comparisons.renderers.program.declaration_file import DeclarationError
     from raytruth.reference_tracer.certified_image import CertifiedImage
     from raytruth.reference_tracer.explanation import ExplanationError
     from raytruth.reference_tracer.explanation_record import Explanation
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "CertifiedImage",
+    "DeclarationError",
     "DeclaredPixels",
     "ErrorModel",
     "Explanation",
@@ -48,6 +50,7 @@ __all__ = [
 
 _MODULES = {
     "CertifiedImage": "raytruth.reference_tracer.certified_image",
+    "DeclarationError": "raytruth.comparisons.renderers.program.declaration_file",
     "DeclaredPixels": "raytruth.comparisons.records.results",
     "ErrorModel": "raytruth.comparisons.error_models.error_model",
     "Explanation": "raytruth.reference_tracer.explanation_record",

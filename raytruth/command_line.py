@@ -78,7 +78,7 @@ COMMANDS = {
     "report": (
         "raytruth.report_command:report",
         "Rebuild the report of a results directory from its files alone.",
-        "Example: `raytruth report results`",
+        "Examples: `raytruth report results`, `raytruth report results --junit junit.xml`",
     ),
 }
 """Each command's function, its summary, and what its own `--help` adds."""

@@ -13,6 +13,7 @@ from raytruth.scenes.camera import LARGEST_SIDE
 from raytruth.scenes.loading import SceneError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from pathlib import Path
 
     from raytruth.scenes.scene import Scene
@@ -29,6 +30,17 @@ def open_scene(name_or_path: str) -> Scene:
         return load_scene(name_or_path)
     except SceneError as error:
         raise UsageError(str(error)) from error
+
+
+def open_scenes(sources: Iterable[str]) -> dict[str, Scene]:
+    """The scenes, each by what names it on the command line. Raises UsageError where two have the same name."""
+    opened: dict[str, Scene] = {}
+    for source in sources:
+        scene = open_scene(source)
+        if scene.name in {known.name for known in opened.values()}:
+            raise UsageError(f"There are two scenes called {scene.name!r}: give each scene file a name of its own.")
+        opened[source] = scene
+    return opened
 
 
 def expect_folder(out: Path) -> None:

@@ -11,14 +11,19 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.text import Text
 
-from raytruth.comparisons.renderers.catalogue import UnknownRendererError, all_renderers, select_renderers
+from raytruth.comparisons.renderers.catalogue import (
+    UnknownRendererError,
+    all_renderers,
+    select_renderers,
+    unusable_adapters,
+)
 from raytruth.comparisons.renderers.program.declaration_file import DeclarationError, checked_declaration
 from raytruth.comparisons.renderers.program.declaration_schema import json_schema
 from raytruth.comparisons.renderers.program.starting_file import starting_text
 from raytruth.comparisons.renderers.protocol import shown_error_model, versions_in_words, why_unavailable
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time
-from raytruth.output import print_json, progress, say
+from raytruth.output import print_json, progress, say, tell
 from raytruth.programs import programs_of
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.requirements import required_features
@@ -55,6 +60,8 @@ def renderers(
     if init is not None:
         say(f"Wrote {_start(init)}; edit it, then: raytruth run --quick --renderer-file {init}.toml")
         return
+    for sentence in unusable_adapters():
+        tell(f"raytruth: {sentence}")
     programs = programs_of((), renderer_file)
     try:
         selected = (select_renderers(names) if names or not programs else {}) | programs

@@ -19,19 +19,19 @@ from raytruth.comparisons.matrix.results_directory import only_run_in, with_metr
 from raytruth.comparisons.matrix.run import run_plan
 from raytruth.comparisons.matrix.waivers import WaiverError, apply_waivers, load_waivers
 from raytruth.comparisons.records.results import Verdict
-from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers
+from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers, unusable_adapters
 from raytruth.comparisons.renderers.protocol import why_unavailable
 from raytruth.errors import UsageError
-from raytruth.options import AsJson, expect_folder, open_scene
+from raytruth.options import AsJson, expect_folder, open_scenes
 from raytruth.output import progress, tell
 from raytruth.programs import programs_of
 from raytruth.reports.console import print_matrix
 from raytruth.reports.wording import printable
 from raytruth.scenes.library import library_names
-from raytruth.written_report import written_report
+from raytruth.written_report import report_files, written_report
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from raytruth.comparisons.matrix.waivers import Waiver
     from raytruth.comparisons.records.results import Cell, Results
@@ -53,6 +53,8 @@ def run(
     fresh: Annotated[bool, Parameter(negative="")] = False,
     strict: Annotated[bool, Parameter(negative="")] = False,
     quick: Annotated[bool, Parameter(negative="")] = False,
+    junit: Path | None = None,
+    summary: Path | None = None,
     as_json: AsJson = False,
 ) -> int:
     """Run the conformance matrix: scenes × renderers, each cell judged against the truth.
@@ -89,20 +91,22 @@ def run(
     quick
         Only the quick suite: few scenes with small images, which still find every fault of the catalogue
         (`raytruth faults`).
+    junit
+        Write the verdicts in the results directory to this file, too, as JUnit XML: a test for each cell.
+    summary
+        Write a summary of it to this file, too, in Markdown, as GitHub shows it of a job:
+        `--summary "$GITHUB_STEP_SUMMARY"`.
     as_json
         Print the results as one JSON document instead of the table.
     """
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
     expect_folder(out)
+    files = report_files(junit, summary)
     programs = programs_of(renderer_command, renderer_file)
-    # Who names a program wants it judged: one that cannot run is no success.
-    required = {**programs, **(_selected("--require", require) if require else {})}
-    selected = (_selected("--renderer", renderer) if renderer or not programs else {}) | required
+    selected, required = _chosen(renderer, require, programs)
     known_failures = _waivers(waivers, programs)
-    if quick and scenes:
-        raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
-    opened = _opened(write_quick_suite(out) if quick else scenes or library_names())
+    opened = _opened(scenes, out, quick=quick)
     with only_run_in(out):
         _tell_damage(out)
         with progress("Looking for the renderers"):
@@ -116,6 +120,7 @@ def run(
             raise
         results, cells, unmatched = _written(out, opened, selected, plan, cells, known_failures)
         report = written_report(out, unless_current=True)
+        files.write(out, strict=strict)
     _show(results, report, as_json)
     return _status(cells, _missing(required, plan), unmatched, strict=strict)
 
@@ -136,11 +141,29 @@ def _written(
     return results, waived, unmatched
 
 
+def _opened(scenes: Sequence[str], out: Path, *, quick: bool) -> dict[str, Scene]:
+    """The scenes to run, each by what names it; raises UsageError for mistakes in them."""
+    if quick and scenes:
+        raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
+    return open_scenes(write_quick_suite(out) if quick else scenes or library_names())
+
+
 def _tell_damage(out: Path) -> None:
     """Say what of an earlier run's results cannot be read, if anything."""
     damage = damage_of(out)
     if damage is not None:
         tell(f"raytruth: {damage}")
+
+
+def _chosen(
+    renderer: Sequence[str], require: Sequence[str], programs: Mapping[str, Renderer]
+) -> tuple[dict[str, Renderer], dict[str, Renderer]]:
+    """The renderers to run, and those of them that must be available."""
+    for sentence in unusable_adapters():
+        tell(f"raytruth: {sentence}")
+    # Who names a program wants it judged: one that cannot run is no success.
+    required = {**programs, **(_selected("--require", require) if require else {})}
+    return (_selected("--renderer", renderer) if renderer or not programs else {}) | required, required
 
 
 def _selected(option: str, names: Sequence[str]) -> dict[str, Renderer]:
@@ -171,17 +194,6 @@ def _split(option: str, names: Sequence[str]) -> list[str]:
     if names and not parts:
         raise UsageError(f"{option}: expected the name of a renderer, found none; see raytruth renderers.")
     return parts
-
-
-def _opened(sources: Iterable[str]) -> dict[str, Scene]:
-    """Each scene by what names it on the command line. Raises UsageError where two have the same name."""
-    opened: dict[str, Scene] = {}
-    for source in sources:
-        scene = open_scene(source)
-        if scene.name in {known.name for known in opened.values()}:
-            raise UsageError(f"There are two scenes called {scene.name!r}: give each scene file a name of its own.")
-        opened[source] = scene
-    return opened
 
 
 def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:

@@ -150,3 +150,17 @@ def listed(names: Sequence[str]) -> str:
 def plural(noun: str, count: int) -> str:
     """The noun with its s where the count asks for one."""
     return noun if abs(count) == 1 else f"{noun}s"
+
+
+def evidence(cell: Cell) -> list[str]:
+    """What more there is to say of a cell whose image fails, a sentence each: the worst pixel, with its numbers."""
+    worst = None if cell.judgement is None or cell.verdict != Verdict.FAIL else cell.judgement.worst
+    if worst is None:
+        return []
+    value, truth, low, high = (
+        f"({', '.join(map(exact, colour))})" for colour in (worst.value, worst.truth, worst.low, worst.high)
+    )
+    return [
+        f"Worst pixel ({worst.x}, {worst.y}): it is {value}, the truth is {truth}, and the nearest that it may be is "
+        f"{low} to {high}."
+    ]

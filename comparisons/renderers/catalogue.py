@@ -1,4 +1,4 @@
-"""All renderers that raytruth knows."""
+"""All renderers that raytruth knows, and those that other packages bring."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_llvm, mitsuba
 from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.comparisons.renderers.povray import PovRay
 from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
+from raytruth.comparisons.renderers.third_party.entry_points import third_party
 from raytruth.comparisons.renderers.vtk.adapter import Vtk
 from raytruth.scenes.wording import quoted, suggestion
 
@@ -36,7 +37,17 @@ class UnknownRendererError(Exception):
 
 
 def all_renderers() -> dict[str, Renderer]:
-    """Each renderer by its name, available here or not."""
+    """Each renderer by its name, available here or not: ours, and those that other packages bring."""
+    own = _own_renderers()
+    return own | third_party(frozenset(own)).renderers
+
+
+def unusable_adapters() -> tuple[str, ...]:
+    """A sentence for each renderer of other packages that is left out."""
+    return third_party(frozenset(_own_renderers())).problems
+
+
+def _own_renderers() -> dict[str, Renderer]:
     renderers: tuple[Renderer, ...] = (
         mitsuba_scalar(),
         mitsuba_llvm(),

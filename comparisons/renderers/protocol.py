@@ -66,7 +66,7 @@ class Renderer(Protocol):
 
 @runtime_checkable
 class GivenRenderer(Renderer, Protocol):
-    """A renderer that raytruth does not know by its name: its user gives it, a program or a finished picture."""
+    """A renderer that is not ours: a program or a finished picture of its user, or what another package brings."""
 
     @property
     def digest(self) -> str:

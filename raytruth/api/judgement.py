@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.feasible_sets.kept_feasible_sets import kept_feasible_set
 from raytruth.comparisons.judgement.kept_expectation import kept_expectation
 from raytruth.comparisons.judgement.pixel_verdict import with_shortcuts
 from raytruth.comparisons.judgement.verdict import judge_exact
+from raytruth.comparisons.renderers.program.declaration_file import load_declaration
+from raytruth.comparisons.renderers.program.declared_model import error_model_of_declaration
+from raytruth.comparisons.renderers.program.output_images import unflipped
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
     from raytruth.comparisons.records.results import DeclaredPixels, Verdict, WorstPixel
+    from raytruth.comparisons.renderers.program.declaration import Declaration
     from raytruth.scenes.scene import Scene
 
 FLOATS = ("float16", "float32", "float64")
@@ -59,16 +64,23 @@ def feasible_set(scene: Scene, error_model: ErrorModel) -> FeasibleSet:
     return kept_feasible_set(scene, error_model)
 
 
-def judge(image: NDArray[np.floating[Any]], scene: Scene, error_model: ErrorModel) -> ImageJudgement:
+def judge(image: NDArray[np.floating[Any]], scene: Scene, error_model: ErrorModel | str | Path) -> ImageJudgement:
     """The verdict on an image that was rendered without random numbers, as the matrix gives it.
 
     The image is linear RGB of the scene's size, shape (height, width, 3), row 0 on top, in float16, float32 or float64.
     Its values are judged as they are given: where a file holds integers, they are the linear values that
     `error_model.output.linear_values` reads from these. The truth and the feasible set are kept in the cache.
 
-    Raises ValueError for another shape or type of numbers, and for an image that holds NaN.
+    In place of an error model stands the path of a TOML file that declares a program (docs/your-renderer.md): then the
+    image is as the program gives it, and what the file says is flipped is turned before it is judged.
+
+    Raises ValueError for another shape or type of numbers, for an image that holds NaN, and for a program that draws
+    random samples; DeclarationError for a file that declares no program.
     """
     _check(image, scene)
+    if not isinstance(error_model, ErrorModel):
+        declared = _of_one_picture(Path(error_model))
+        image, error_model = unflipped(image, declared), error_model_of_declaration(declared).in_scene(scene)
     values: Any = image.astype(np.float64)  # holds every number of the narrower types
     expectation = kept_expectation(scene, error_model)
     judged = judge_exact(values, expectation)
@@ -87,6 +99,14 @@ def judge(image: NDArray[np.floating[Any]], scene: Scene, error_model: ErrorMode
         worst=counts.worst,
         distances=judged.distances.max(axis=2),
     )
+
+
+def _of_one_picture(path: Path) -> Declaration:
+    """What a file declares of a program whose one picture can be judged."""
+    declared = load_declaration(path)
+    if declared.sampling.samples:
+        raise ValueError(f"{path}: sampling: one image of random samples cannot be judged; use raytruth run.")
+    return declared
 
 
 def _check(image: NDArray[Any], scene: Scene) -> None:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.raytruth.running import document, refusal
+from tests.raytruth.running import document, refusal, run
 from tests.reports.sample_results import write_sample
 
 if TYPE_CHECKING:
@@ -27,3 +27,37 @@ def test_a_missing_directory_is_one_sentence(tmp_path: Path, capsys: pytest.Capt
 def test_broken_results_are_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "results.json").write_text("{")
     assert "not valid JSON" in refusal(capsys, "report", str(tmp_path))
+
+
+@pytest.mark.clause("REP-9")
+def test_junit_xml_and_a_summary_are_written_beside_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    directory = write_sample(tmp_path / "results")
+    junit, summary = tmp_path / "junit.xml", tmp_path / "summary.md"
+    told = document(capsys, "report", str(directory), "--junit", str(junit), "--summary", str(summary))
+    assert told == {"report": str(directory / "report.html"), "junit": str(junit), "summary": str(summary)}
+    assert "<testcase" in junit.read_text(encoding="utf-8")
+    assert summary.read_text(encoding="utf-8").startswith("## raytruth")
+
+
+@pytest.mark.clause("REP-9", "VER-14")
+def test_strict_makes_a_failure_of_what_is_as_declared(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    directory = write_sample(tmp_path / "results")
+    junit = tmp_path / "junit.xml"
+    counts = []
+    for more in ([], ["--strict"]):
+        assert run(capsys, "report", str(directory), "--junit", str(junit), *more)[0] == 0
+        counts.append(junit.read_text(encoding="utf-8").count("<failure"))
+    assert counts == [1, 2]
+
+
+@pytest.mark.parametrize("option", ["--junit", "--summary"])
+def test_a_file_that_cannot_be_written_is_refused_before_any_work(
+    option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    directory = write_sample(tmp_path / "results")
+    nowhere = tmp_path / "nowhere" / "file"
+    assert f"{option}: expected a file in a folder that exists" in refusal(
+        capsys, "report", str(directory), option, str(nowhere)
+    )
+    assert f"{option}: expected the name of a file" in refusal(capsys, "report", str(directory), option, str(tmp_path))
+    assert not (directory / "report.html").exists()

@@ -77,6 +77,17 @@ def test_a_run_whose_cells_all_pass_ends_with_0_and_a_report(folder: Path, capsy
     assert list((folder / "results").glob("*.html"))
 
 
+@pytest.mark.clause("REP-9")
+def test_a_run_writes_junit_xml_and_a_summary(
+    pretender: Pretender, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pretender.answer = black
+    options = ("--junit", "junit.xml", "--summary", "summary.md")
+    assert run(capsys, "run", "small.json", "--renderer", "pretender", *options)[0] == 1
+    assert 'failures="1"' in (folder / "junit.xml").read_text(encoding="utf-8")
+    assert "| ✗ fail | small | pretender/whitted |" in (folder / "summary.md").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(("answer", "verdict"), [(black, "fail"), (broken, "error")])
 def test_a_cell_that_fails_or_errs_gives_1(
     answer: Any, verdict: str, pretender: Pretender, capsys: pytest.CaptureFixture[str]

@@ -166,3 +166,41 @@ def test_an_infinite_value_fails_its_pixel() -> None:
     judgement = raytruth.judge(spoiled, scene, FLOAT64)
     assert (judgement.failing, judgement.worst.x, judgement.worst.y) == (1, 5, 3)
     assert judgement.worst.value[1] == judgement.worst.tolerances == np.inf
+
+
+def declaration(folder: Path, **further: str) -> Path:
+    """A file that declares a program; `further` tables of it hold these lines."""
+    path = folder / "mine.toml"
+    tables = "".join(f"[{name}]\n{lines}\n" for name, lines in further.items())
+    path.write_text(f'name = "mine"\ncommand = ["./mine", "{{scene}}", "{{output}}", "{{seed}}"]\n{tables}')
+    return path
+
+
+@pytest.mark.clause("VER-15")
+@pytest.mark.parametrize("as_text", [False, True])
+def test_a_file_that_declares_a_program_stands_for_its_error_model(as_text: bool, tmp_path: Path) -> None:
+    scene, image = rendered("sphere-over-floor")
+    single = image.astype(np.float32)
+    single[3, 4] *= 1 + 2**-20  # more than float32's rounding, and less than one of 18 bits
+    for bits, verdict in ((39, "fail"), (18, "pass")):
+        path = declaration(tmp_path, arithmetic=f"bits = {bits}")
+        assert raytruth.judge(single, scene, str(path) if as_text else path).verdict == verdict
+
+
+@pytest.mark.clause("VER-15")
+def test_an_image_that_is_declared_to_be_flipped_is_turned(tmp_path: Path) -> None:
+    scene, image = rendered("sphere-over-floor")
+    path = declaration(tmp_path, conventions="flip_x = true\nflip_y = true")
+    flipped = np.ascontiguousarray(image[::-1, ::-1]).astype(np.float32)
+    flipped[0, 1] += 1
+    judgement = raytruth.judge(flipped, scene, path)
+    assert (judgement.worst.x, judgement.worst.y, judgement.failing) == (WIDTH - 2, HEIGHT - 1, 1)
+
+
+@pytest.mark.clause("REN-8")
+def test_a_file_that_declares_no_program_or_one_that_draws_samples_is_refused(tmp_path: Path) -> None:
+    scene, image = rendered("single-sphere")
+    with pytest.raises(raytruth.DeclarationError, match="expected a TOML file, found no file"):
+        raytruth.judge(image, scene, "nothing.toml")
+    with pytest.raises(ValueError, match="one image of random samples cannot be judged"):
+        raytruth.judge(image, scene, declaration(tmp_path, sampling="samples = 4"))

@@ -1,0 +1,1 @@
+"""Renderers whose adapters come with other packages (docs/adapters.md)."""
