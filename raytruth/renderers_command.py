@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.padding import Padding
 from rich.text import Text
 
+from raytruth.comparisons.error_models.formulas import FORMULAS
 from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers
 from raytruth.comparisons.renderers.protocol import shown_error_model, versions_in_words, why_unavailable
 from raytruth.errors import UsageError
@@ -20,16 +22,21 @@ if TYPE_CHECKING:
     from raytruth.comparisons.renderers.protocol import Renderer
 
 
-def renderers(*names: str, as_json: AsJson = False) -> None:
+def renderers(*names: str, formulas: bool = False, as_json: AsJson = False) -> None:
     """Show who can render here, what each can do, and how to install the rest.
 
     Parameters
     ----------
     names
         Only these renderers; all of them by default.
+    formulas
+        List the formulas that a renderer can declare instead, with a line of code each.
     as_json
         Print one JSON document instead of text.
     """
+    if formulas:
+        _print_formulas(as_json=as_json)
+        return
     try:
         selected = select_renderers(names)
     except UnknownRendererError as error:
@@ -47,6 +54,15 @@ def renderers(*names: str, as_json: AsJson = False) -> None:
             _print_block(console, record)
         else:
             print("\t".join((record["name"], *_clauses(record).values())))
+
+
+def _print_formulas(*, as_json: bool) -> None:
+    if as_json:
+        print_json({"formulas": [asdict(formula) for formula in FORMULAS]})
+        return
+    widths = [max(len(text) for text in column) for column in zip(*((f.field, f.value) for f in FORMULAS), strict=True)]
+    for formula in FORMULAS:
+        print(f"{formula.field:{widths[0]}}  {formula.value:{widths[1]}}  {formula.code}")
 
 
 def _clauses(record: dict[str, Any]) -> dict[str, str]:

@@ -43,6 +43,8 @@ from raytruth.reference_tracer.source.traversal import is_occluded
 from raytruth.reference_tracer.source.vector import add, along, dot, negate, normalize, scale, subtract
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.ray_tree import Ray
@@ -52,11 +54,11 @@ if TYPE_CHECKING:
 
 # The kinds: 0 of shadow rays, 1 of reflected ones, 2 of refracted ones, 3 of the camera's.
 
-sphere_roots: Any = quadratic_roots
+sphere_roots: Callable[[Vector, Vector, Vector, Scalar], tuple[Scalar, Scalar]] = quadratic_roots
 """The formula of sphere_formulas.py that is declared."""
-triangle_root: Any = plain_root
+triangle_root: Callable[[Vector, Vector, Vector, Vector, Vector], Scalar] = plain_root
 """The formula of triangle_formulas.py."""
-as_traced: Any = normalize
+as_traced: Callable[[Vector], Vector] = normalize
 """Or `as_it_is`."""
 
 length_of_offset: list[Scalar] = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,8 +21,16 @@ def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
 
     Formulas stay, and what is flushed to zero: they are arithmetic.
     """
-    offsets = {"ray_offset": RayOffset(), "shadow_offset": None, "reflected_offset": None, "refracted_offset": None}
-    return replace(error_model, **offsets, shadow_aim="light", shadow_shortening=0.0, shadow_tolerance=0.0)
+    return replace(
+        error_model,
+        ray_offset=RayOffset(),
+        shadow_offset=None,
+        reflected_offset=None,
+        refracted_offset=None,
+        shadow_aim="light",
+        shadow_shortening=0.0,
+        shadow_tolerance=0.0,
+    )
 
 
 def has_shortcuts(error_model: ErrorModel) -> bool:
@@ -55,7 +64,7 @@ def _longest_offset(offset: RayOffset, scale: float, precision_bits: int) -> flo
     """How far a ray may start beside a surface, at the most, where no coordinate is larger than `scale`."""
     by_units = max(2.0**-16, 2.0**-15 * scale) if offset.in_units else 0.0
     # A normal's coordinates sum up to no more than the root of 3.
-    by_bound = 3.0**0.5 * offset.error_bound * 2.0**-precision_bits * scale
+    by_bound = sqrt(3.0) * offset.error_bound * 2.0**-precision_bits * scale
     return offset.absolute + offset.relative * scale + by_units + by_bound
 
 
