@@ -110,8 +110,6 @@ def plane_and_inside_root(origin: Vector, direction: Vector, a: Vector, b: Vecto
     first_edge = subtract(b, a)
     normal = cross(first_edge, subtract(c, a))
     determinant = dot(normal, direction)
-    if determinant == 0.0:
-        return inf
     height = dot(normal, a) - dot(normal, origin)
     if not certainly_less(0.0, abs(determinant)):
         # Of a plane seen edge on balls know no distance, but may know that it is met beyond all of the triangle: twice
@@ -121,6 +119,8 @@ def plane_and_inside_root(origin: Vector, direction: Vector, a: Vector, b: Vecto
         farthest = largest_magnitude(sqrt(dot(to_a, to_a)), sqrt(dot(to_b, to_b)), sqrt(dot(to_c, to_c)))
         if certainly_less(2.0 * abs(determinant) * farthest, abs(height) * sqrt(dot(direction, direction))):
             return inf
+    if determinant == 0.0:
+        return inf
     distance = height / determinant
     point = along(origin, direction, distance)
     u = dot(normal, cross(first_edge, subtract(point, a)))
