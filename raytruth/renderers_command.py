@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,6 +12,7 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.text import Text
 
+from raytruth.comparisons.error_models.formulas import FORMULAS
 from raytruth.comparisons.renderers.catalogue import (
     UnknownRendererError,
     all_renderers,
@@ -37,6 +39,7 @@ def renderers(
     renderer_file: Annotated[tuple[Path, ...], Parameter(negative="")] = (),
     init: Annotated[str | None, Parameter(show_default=False)] = None,
     schema: Annotated[bool, Parameter(negative="")] = False,
+    formulas: Annotated[bool, Parameter(negative="")] = False,
     as_json: AsJson = False,
 ) -> None:
     """Show who can render here, what each can do, and how to install the rest.
@@ -51,11 +54,16 @@ def renderers(
         Write NAME.toml, a commented file that declares a program of your own of this name, and nothing else.
     schema
         Print the JSON Schema that such files obey, and nothing else.
+    formulas
+        List the formulas that a renderer can declare, with a line of code each, and nothing else.
     as_json
         Print one JSON document instead of text.
     """
     if schema:
         print_json(json_schema())
+        return
+    if formulas:
+        _print_formulas(as_json=as_json)
         return
     if init is not None:
         say(f"Wrote {_start(init)}; edit it, then: raytruth run --quick --renderer-file {init}.toml")
@@ -101,6 +109,15 @@ def _start(name: str) -> Path:
     except FileExistsError as error:
         raise UsageError(f"--init: {path} is there already; it is left as it is.") from error
     return path
+
+
+def _print_formulas(*, as_json: bool) -> None:
+    if as_json:
+        print_json({"formulas": [asdict(formula) for formula in FORMULAS]})
+        return
+    widths = [max(len(text) for text in column) for column in zip(*((f.field, f.value) for f in FORMULAS), strict=True)]
+    for formula in FORMULAS:
+        print(f"{formula.field:{widths[0]}}  {formula.value:{widths[1]}}  {formula.code}")
 
 
 def _clauses(record: dict[str, Any]) -> dict[str, str]:

@@ -30,6 +30,12 @@ def spans_of(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return np.array([center for center, _ in balls]), np.array([radius for _, radius in balls])
 
 
+def largest_coordinate(scene: Scene) -> float:
+    """The largest absolute coordinate of any point that a ray may leave; of infinite planes, of their stated point."""
+    centers, radii = spans_of(scene)
+    return float((np.abs(centers) + radii[:, None]).max())
+
+
 def extent_of(scene: Scene) -> float:
     """A bound on how far a ray goes between any two points of the scene, lights and camera included.
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Literal
 
+from raytruth.comparisons.error_models.formulas import in_code
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.scenes.extent import extent_of
 
@@ -294,17 +295,17 @@ class ErrorModel:
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
             "camera rays go": around if self.image_radius > 0.0 else "through the centres of pixels",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
-            "triangles": f"{self.triangle_test} test",
-            "points on triangles": self.triangle_points,
-            "spheres": f"{self.sphere_test} test",
-            "points on spheres": self.sphere_points,
+            "triangles": in_code("triangle_test", self.triangle_test),
+            "points on triangles": in_code("triangle_points", self.triangle_points),
+            "spheres": in_code("sphere_test", self.sphere_test),
+            "points on spheres": in_code("sphere_points", self.sphere_points),
             "drawing": self.rasterisation.in_words() if self.rasterisation else "none: rays are traced",
             "rays that leave a surface start": self.ray_offset.in_words(),
             **offsets,
             "shadow rays go": AIMS[self.shadow_aim],
-            "directions": self.directions,
-            "Fresnel's formulas": self.fresnel,
-            "refraction": self.refraction,
+            "directions": in_code("directions", self.directions),
+            "Fresnel's formulas": in_code("fresnel", self.fresnel),
+            "refraction": in_code("refraction", self.refraction),
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",
             "what is near": f"nearer than {near}" if self.shadow_tolerance > 0.0 else "throws shadows as all else",
             "infinite planes": f"{far} may be met or not" if isfinite(self.farthest) else "are met at any distance",

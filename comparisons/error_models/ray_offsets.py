@@ -71,21 +71,7 @@ def offset_behaviour(error_model: ErrorModel) -> Behaviour:
     The constants are balls that hold what the renderer stores.
     """
     offset, bits = error_model.ray_offset, error_model.precision_bits
-    functions: dict[str, Function] = {}
-    if error_model.needs_policies:
-        pass  # ray_policies.py says where rays start and what they meet
-    elif offset.moves_rays and not offset.is_bound:
-        functions["departure"] = departure_along_normal if offset.along == "normal" else departure_along_ray
-    if error_model.needs_policies:
-        pass
-    elif not offset.excludes_surface:
-        functions["distance_to_sphere"] = distance_to_any_sphere
-        functions["distance_to_triangle"] = distance_to_any_triangle
-        functions["distance_to_plane"] = distance_to_any_plane
-    elif offset.moves_rays and not offset.is_bound:
-        functions["distance_to_other_side"] = distance_to_other_side_from_offset
-        if error_model.sphere_test == "accurate":  # others say themselves when they test a sphere again
-            functions["distance_to_sphere"] = distance_to_sphere_from_offset
+    functions = {} if error_model.needs_policies else _starts_and_tests(error_model)  # else ray_policies.py has them
     if error_model.shadow_shortening > 0.0:
         functions["shadow_ray_end"] = early_shadow_ray_end
     if isfinite(error_model.farthest):
@@ -103,6 +89,23 @@ def offset_behaviour(error_model: ErrorModel) -> Behaviour:
         "either_sign": arb(0, 1),
     }
     return Behaviour(functions, (offset_length, comes_back), constants, "ray offsets")
+
+
+def _starts_and_tests(error_model: ErrorModel) -> dict[str, Function]:
+    """Where rays start, and what that makes of the tests of what they have left."""
+    offset = error_model.ray_offset
+    functions: dict[str, Function] = {}
+    if offset.moves_rays and not offset.is_bound:
+        functions["departure"] = departure_along_normal if offset.along == "normal" else departure_along_ray
+    if not offset.excludes_surface:
+        functions["distance_to_sphere"] = distance_to_any_sphere
+        functions["distance_to_triangle"] = distance_to_any_triangle
+        functions["distance_to_plane"] = distance_to_any_plane
+    elif offset.moves_rays and not offset.is_bound:
+        functions["distance_to_other_side"] = distance_to_other_side_from_offset
+        if error_model.sphere_test == "accurate":  # others say themselves when they test a sphere again
+            functions["distance_to_sphere"] = distance_to_sphere_from_offset
+    return functions
 
 
 def offset_length(point: Vector) -> Scalar:

@@ -29,11 +29,15 @@ from raytruth.comparisons.error_models.triangle_formulas import plain_root, tria
 from raytruth.reference_tracer.arithmetics.balls import stored_number
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, Behaviour, merged
 from raytruth.reference_tracer.source.bounding_volume import certainly_less
+from raytruth.reference_tracer.source.plane import plane_distance
 from raytruth.reference_tracer.source.reflection import mirror_direction
 from raytruth.reference_tracer.source.scene_data import (
+    PLANE_NORMAL,
+    PLANE_POINT,
     SPHERE_CENTER,
     SPHERE_MATERIAL,
     SPHERE_RADIUS,
+    first_plane,
     number_of,
     rows_of,
     vector_of,
@@ -43,6 +47,8 @@ from raytruth.reference_tracer.source.traversal import is_occluded
 from raytruth.reference_tracer.source.vector import add, along, dot, negate, normalize, scale, subtract
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.ray_tree import Ray
@@ -52,11 +58,11 @@ if TYPE_CHECKING:
 
 # The kinds: 0 of shadow rays, 1 of reflected ones, 2 of refracted ones, 3 of the camera's.
 
-sphere_roots: Any = quadratic_roots
+sphere_roots: Callable[[Vector, Vector, Vector, Scalar], tuple[Scalar, Scalar]] = quadratic_roots
 """The formula of sphere_formulas.py that is declared."""
-triangle_root: Any = plain_root
+triangle_root: Callable[[Vector, Vector, Vector, Vector, Vector], Scalar] = plain_root
 """The formula of triangle_formulas.py."""
-as_traced: Any = normalize
+as_traced: Callable[[Vector], Vector] = normalize
 """Or `as_it_is`."""
 
 length_of_offset: list[Scalar] = []
@@ -103,6 +109,7 @@ def ray_policy_behaviour(error_model: ErrorModel, scene: Scene) -> Behaviour:
     offsets = error_model.offsets()
     stored = [_stored(offset, scene, bits) for offset in offsets]
     lists = {name: [values[name] for values in stored] for name in stored[0]}
+    has_bounds = any(offset.error_bound > 0.0 for offset in offsets)
     normalised = error_model.directions == "normalised"
     aims = {"light": arb(1), "parallel": arb(0), "either": arb(0.5, 0.5)}
     itself = Behaviour(
@@ -112,6 +119,7 @@ def ray_policy_behaviour(error_model: ErrorModel, scene: Scene) -> Behaviour:
             "is_shadowed": is_shadowed_by_policy,
             "distance_to_sphere": distance_to_sphere_by_policy,
             "distance_to_triangle": distance_to_triangle_by_policy,
+            "distance_to_plane": distance_to_plane_by_policy,
         },
         (
             *(start_of, moved_by_units, offset_of, bound_of, least_distance, other_side),
@@ -119,7 +127,7 @@ def ray_policy_behaviour(error_model: ErrorModel, scene: Scene) -> Behaviour:
         ),
         {
             **lists,
-            "terms_of_points": [arb(terms) for terms in largest_terms(scene)],
+            "terms_of_points": [arb(terms if has_bounds else 0.0) for terms in largest_terms(scene)],
             "least_is_a_length": arb(0 if error_model.directions == "unnormalised" else 1),
             "aims_at_light": aims[error_model.shadow_aim],
             "some_of_it": arb(0.5, 0.5),
@@ -286,6 +294,19 @@ def distance_to_triangle_by_policy(
         return inf
     a, b, c = corners_of(scene, triangle)
     distance = triangle_root(origin, direction, a, b, c)
+    if distance > least_distance(kind, origin, direction):
+        return distance
+    return inf
+
+
+def distance_to_plane_by_policy(scene: SceneData, origin: Vector, direction: Vector, left: int, plane: int) -> Scalar:
+    """As distance_to_triangle_by_policy, of an infinite plane."""
+    both = left + first_plane(scene)
+    kind = both % 4
+    if both // 4 - first_plane(scene) == plane and leaves_surface_out[kind] > 0.5:
+        return inf
+    point, normal = vector_of(scene, PLANE_POINT, plane), vector_of(scene, PLANE_NORMAL, plane)
+    distance = plane_distance(origin, direction, point, normal)
     if distance > least_distance(kind, origin, direction):
         return distance
     return inf

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf, isfinite
+from math import inf, isfinite, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from raytruth.comparisons.error_models.error_model import RayOffset
+from raytruth.scenes.extent import largest_coordinate
 from raytruth.scenes.planes import has_planes
 from raytruth.scenes.shapes import Plane, Sphere
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.scenes.scene import Scene
-    from raytruth.scenes.shapes import Shape
-
-    Array = NDArray[np.float64]
 
 
 def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
@@ -27,9 +23,17 @@ def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
 
     Formulas stay, and what is flushed to zero: they are arithmetic.
     """
-    offsets = {"ray_offset": RayOffset(), "shadow_offset": None, "reflected_offset": None, "refracted_offset": None}
-    lengths = {"shadow_shortening": 0.0, "shadow_tolerance": 0.0, "farthest": inf}
-    return replace(error_model, **offsets, **lengths, shadow_aim="light")
+    return replace(
+        error_model,
+        ray_offset=RayOffset(),
+        shadow_offset=None,
+        reflected_offset=None,
+        refracted_offset=None,
+        shadow_aim="light",
+        shadow_shortening=0.0,
+        shadow_tolerance=0.0,
+        farthest=inf,
+    )
 
 
 def has_shortcuts(error_model: ErrorModel) -> bool:
@@ -43,7 +47,7 @@ def has_shortcuts(error_model: ErrorModel) -> bool:
 
 def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
     """How large the shortcuts are in a scene, beside its smallest shape; a clause without an end."""
-    offsets, scale = error_model.offsets(), _largest_coordinate(scene)
+    offsets, scale = error_model.offsets(), largest_coordinate(scene)
     lengths = {
         "ray offset": max(_longest_offset(offset, scale, error_model.precision_bits) for offset in offsets),
         "least distance": max(o.minimum_distance + o.relative_minimum_distance * scale for o in offsets),
@@ -66,19 +70,8 @@ def _longest_offset(offset: RayOffset, scale: float, precision_bits: int) -> flo
     """How far a ray may start beside a surface, at the most, where no coordinate is larger than `scale`."""
     by_units = max(2.0**-16, 2.0**-15 * scale) if offset.in_units else 0.0
     # A normal's coordinates sum up to no more than the root of 3.
-    by_bound = 3.0**0.5 * offset.error_bound * 2.0**-precision_bits * scale
+    by_bound = sqrt(3.0) * offset.error_bound * 2.0**-precision_bits * scale
     return offset.absolute + offset.relative * scale + by_units + by_bound
-
-
-def _largest_coordinate(scene: Scene) -> float:
-    """The largest absolute coordinate of any point that a ray may leave; of infinite planes, of their stated point."""
-    return max(float(np.max(_reach(shape))) for shape in scene.objects)
-
-
-def _reach(shape: Shape) -> Array:
-    if isinstance(shape, Sphere):
-        return np.abs(shape.center) + shape.radius
-    return np.abs(shape.point if isinstance(shape, Plane) else shape.vertices)
 
 
 def _smallest(scene: Scene) -> tuple[float, str]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from flint import arb
 
-from raytruth.scenes.shapes import Sphere
+from raytruth.scenes.extent import largest_coordinate
+from raytruth.scenes.shapes import Plane, Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,26 +30,27 @@ def largest_terms(scene: Scene) -> list[float]:
     """For each primitive (docs/spec.md, TRAV-2) the largest that Σ |nᵢ|·Eᵢ may be.
 
     n is the unit normal at a point and Eᵢ the largest absolute coordinate of the primitive along axis i: a point's
-    coordinate is computed from numbers of that size, and its rounding shows along the normal.
+    coordinate is computed from numbers of that size, and its rounding shows along the normal. An infinite plane has
+    no largest.
     """
     spheres = [shape for shape in scene.objects if isinstance(shape, Sphere)]
     of_spheres = [float(np.linalg.norm(np.abs(shape.center) + shape.radius)) for shape in spheres]
-    return [*of_spheres, *(_of_triangle(corners) for corners in _triangles(scene))]
+    of_planes = [inf for shape in scene.objects if isinstance(shape, Plane)]
+    return [*of_spheres, *(_of_triangle(corners) for corners in _triangles(scene)), *of_planes]
 
 
 def scale_of(scene: Scene, precision_bits: int) -> Any:
-    """The largest absolute coordinate of any point of a scene's shapes, as a program may have it: rounded twice."""
-    reaches = [
-        np.abs(shape.center) + shape.radius if isinstance(shape, Sphere) else np.abs(shape.vertices)
-        for shape in scene.objects
-    ]
+    """The largest absolute coordinate of any point of a scene's shapes, as a program may have it: rounded twice.
+
+    Of infinite planes it is that of their stated point.
+    """
     # Once in |c| + r, and once in its product with what is declared.
-    return arb(max(float(np.max(reach)) for reach in reaches)) * arb(1, 2 * 2.0**-precision_bits)
+    return arb(largest_coordinate(scene)) * arb(1, 2 * 2.0**-precision_bits)
 
 
 def _triangles(scene: Scene) -> Iterator[Any]:
     for shape in scene.objects:
-        if isinstance(shape, Sphere):
+        if isinstance(shape, Sphere | Plane):
             continue
         vertices = np.array(shape.vertices)
         yield from vertices[np.array(shape.faces)] if shape.shape == "mesh" else vertices[np.newaxis]

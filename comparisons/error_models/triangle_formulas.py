@@ -9,10 +9,10 @@ The functions here are source of the tracer, as those of triangle_tests.py.
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, sqrt
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.error_models.helpers import under_name
+from raytruth.comparisons.error_models.helpers import largest_magnitude, under_name
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.source.bounding_volume import certainly_less
 from raytruth.reference_tracer.source.triangle import triangle_distance
@@ -110,9 +110,18 @@ def plane_and_inside_root(origin: Vector, direction: Vector, a: Vector, b: Vecto
     first_edge = subtract(b, a)
     normal = cross(first_edge, subtract(c, a))
     determinant = dot(normal, direction)
+    height = dot(normal, a) - dot(normal, origin)
+    if not certainly_less(0.0, abs(determinant)):
+        # Of a plane seen edge on balls know no distance, but may know that it is met beyond all of the triangle: twice
+        # as far away as its farthest corner, so that no edge's product of a triangle with angles above some roundoffs,
+        # as a program may compute it, has the wrong sign.
+        to_a, to_b, to_c = subtract(a, origin), subtract(b, origin), subtract(c, origin)
+        farthest = largest_magnitude(sqrt(dot(to_a, to_a)), sqrt(dot(to_b, to_b)), sqrt(dot(to_c, to_c)))
+        if certainly_less(2.0 * abs(determinant) * farthest, abs(height) * sqrt(dot(direction, direction))):
+            return inf
     if determinant == 0.0:
         return inf
-    distance = (dot(normal, a) - dot(normal, origin)) / determinant
+    distance = height / determinant
     point = along(origin, direction, distance)
     u = dot(normal, cross(first_edge, subtract(point, a)))
     v = dot(normal, cross(subtract(c, b), subtract(point, b)))

@@ -87,3 +87,11 @@ def test_a_renderer_that_cannot_run_is_missing(
 
 def test_an_unknown_renderer_is_one_sentence(capsys: pytest.CaptureFixture[str]) -> None:
     assert "did you mean 'mitsuba'" in refusal(capsys, "renderers", "mitsbua")
+
+
+def test_the_formulas_that_can_be_declared_are_listed_with_a_line_of_code(capsys: pytest.CaptureFixture[str]) -> None:
+    told = document(capsys, "renderers", "--formulas")["formulas"]
+    assert {"field": "sphere_points", "value": "along the ray", "code": "n = (p - C)/r"} in told
+    lines = run(capsys, "renderers", "--formulas")[1].splitlines()
+    assert len(lines) == len(told)
+    assert any(line.split() == ["triangle_points", "along", "the", "ray", "p", "=", "o", "+", "t*d"] for line in lines)

@@ -196,7 +196,7 @@ def test_only_who_tests_so_is_given_it_and_others_are_refused() -> None:
     scene = ball_from_afar()
     assert sphere_test_behaviour(ErrorModel("", 24), scene).names == ()
     assert set(sphere_test_behaviour(FROM_FOOT, scene).functions) == {"nearest_sphere", "distance_to_sphere"}
-    assert FROM_FOOT.in_words()["spheres"] == "from the foot test"
+    assert FROM_FOOT.in_words()["spheres"] == "from the foot"
     for offset in (RayOffset(excludes_surface=False), replace(OFFSET, is_bound=True)):
         with pytest.raises(ValueError, match="from the foot"):
             replace(FROM_FOOT, ray_offset=offset)

@@ -192,3 +192,14 @@ def test_with_embrees_formulas_the_root_is_what_they_give(name: str) -> None:
     corners = [tuple(map(arb, corner)) for corner in ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))]
     assert kernel.triangle_root(*balls, *corners).contains(arb(1))
     assert not kernel.triangle_root(balls[0], tuple(-part for part in balls[1]), *corners).is_finite()
+
+
+def test_a_plane_seen_edge_on_from_above_is_met_nowhere_on_the_triangle() -> None:
+    """Although the determinant's sign is unknown, and so the distance: it is large."""
+    kernel, decisions = kernel_of("plane and inside", 24)
+    level = arb(0, 2.0**-24)
+    corners = [tuple(map(arb, corner)) for corner in ((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, -3.0))]
+    for height, known in ((0.5, True), (2.0**-25, False)):
+        ray = (arb(0), arb(height), arb(1)), (arb(0), level, arb(-1))
+        found = list(every_outcome(lambda ray=ray: kernel.triangle_root(*ray, *corners), decisions, 64))
+        assert (len(found) == 1 and found[0] == arb(math.inf)) == known
