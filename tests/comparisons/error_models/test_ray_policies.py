@@ -45,10 +45,10 @@ def at(x: float, y: float, z: float) -> list[float]:
     return [x + FAR[0], y + FAR[1], z + FAR[2]]
 
 
-def low_things(kind: str, height: float) -> Scene:
+def low_things(kind: str, height: float, *, infinite: bool = False) -> Scene:
     """A floor, and beside or below it what a ray of this kind meets so near that a longer offset passes it by.
 
-    The floor is in the shadow of a wall, or mirrors it, or lets one see a plate below it.
+    The floor, which may be an infinite plane, is in the shadow of a wall, or mirrors it, or lets one see a plate below.
     """
     half, low = 0.4, -height / 2
     floor = [at(-half, 0, half), at(half, 0, half), at(0, 0, -half)]
@@ -70,7 +70,9 @@ def low_things(kind: str, height: float) -> Scene:
             "lights": [{"kind": "directional", "direction": [1, -1, 0.1], "irradiance": [3, 3, 3]}],
             "materials": materials,
             "objects": [
-                {"shape": "triangle", "vertices": floor, "material": "floor"},
+                {"shape": "plane", "point": at(0, 0, 0), "normal": [0, 1, 0], "material": "floor"}
+                if infinite
+                else {"shape": "triangle", "vertices": floor, "material": "floor"},
                 {
                     **{"shape": "mesh", "faces": [[0, 1, 2], [0, 2, 3]], "material": "glowing"},
                     "vertices": plate if kind == "refracted" else wall,
@@ -141,6 +143,21 @@ def moved_by(units: int) -> Callable[[float, float], float]:
         return float(np.float32(coordinate + part * units / 256 / 65536)) if near_zero else float(bits.view(np.float32))
 
     return moved
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    "policy", ["along the normal", "along the normal, excluded", "along the ray", "least distance, excluded"]
+)
+def test_who_leaves_an_infinite_plane_as_it_declares_passes(policy: str, kind: str) -> None:
+    scene = low_things(kind, H, infinite=True)
+
+    def of_one_kind(offset: RayOffset) -> ErrorModel:
+        return ErrorModel("", BITS, **{f"{kind}_offset": offset})  # type: ignore[arg-type]  # the key of a field
+
+    declared, sloppy = (of_one_kind(POLICIES[policy](length)) for length in (H / 16, H * 10 / 16))
+    assert wrong_pixels(program(scene, declared), scene, declared) == 0
+    assert wrong_pixels(program(scene, sloppy), scene, declared) > 0
 
 
 @pytest.mark.parametrize(("units", "fails"), [(256, False), (2560, True)])
