@@ -57,7 +57,7 @@ class JudgedPrograms:
         if isinstance(step, PlannedCell):
             make_truth(step.place.scene, self.out)
             (step,) = run_cells([step], self.out)
-        (cell,), unmatched = apply_waivers(self.waivers, [step], self._plan.versions)
+        (cell,), unmatched = apply_waivers(self.waivers, [step], self._plan.versions, self.scenes.values())
         return cell, unmatched
 
     @cached_property
@@ -81,7 +81,7 @@ class JudgedPrograms:
         scenes = {source: scene for source, scene in self.scenes.items() if scene.name in names}
         plan = plan_run(scenes, list(self.programs.values()), self.out, fresh=False)
         cells = [cell for cell in (*plan.settled, *_errors(plan, self.out)) if cell_place(cell) in places]
-        cells, _ = apply_waivers(self.waivers, with_metrics(self.out, cells), plan.versions)
+        cells, _ = apply_waivers(self.waivers, with_metrics(self.out, cells), plan.versions, scenes.values())
         command = printable(shlex.join([Path(sys.argv[0]).name, *sys.argv[1:]]))
         renderers = [(renderer, plan.versions[name]) for name, renderer in self.programs.items()]
         write_results(self.out, command, list(scenes.values()), renderers, cells)

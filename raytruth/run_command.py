@@ -134,8 +134,7 @@ def _written(
     known_failures: Sequence[Waiver],
 ) -> tuple[Results, list[Cell], list[str]]:
     """The results as they are written, this run's cells as they are waived, and what is told of unmatched waivers."""
-    by_name = {scene.name: scene for scene in opened.values()}
-    waived, unmatched = apply_waivers(known_failures, cells, plan.versions, by_name)
+    waived, unmatched = apply_waivers(known_failures, cells, plan.versions, opened.values())
     with_versions = [(renderer, plan.versions[name]) for name, renderer in selected.items()]
     results = write_results(out, _command(), list(opened.values()), with_versions, waived)
     return results, waived, unmatched
