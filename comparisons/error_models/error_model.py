@@ -6,7 +6,9 @@ from dataclasses import dataclass, field, replace
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Literal
 
+from raytruth.comparisons.error_models.departures import NONE, Departures
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.reference_tracer.camera_rays import CENTRES, CameraRays
 from raytruth.scenes.extent import extent_of
 
 if TYPE_CHECKING:
@@ -118,6 +120,10 @@ class ErrorModel:
     unit vector; or that and the point of the sphere that lies in its direction (hit_points.py)."""
     image_radius: float = 0.0
     """A pixel's ray may go through any point within so many pixels of its centre, in x and in y."""
+    camera_rays: CameraRays = CENTRES
+    """Through which point of each pixel its ray goes: the truth that it is held to is that of these rays."""
+    departures: Departures = NONE
+    """What it computes otherwise than the specification says, on purpose."""
     rasterisation: Rasterisation | None = None
     """How triangles are drawn; None where rays are traced."""
     output: OutputModel = field(default_factory=OutputModel)
@@ -163,7 +169,7 @@ class ErrorModel:
         return {
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
-            "camera rays go": around if self.image_radius > 0.0 else "through the centres of pixels",
+            "camera rays go": around if self.image_radius > 0.0 else self.camera_rays.in_words(),
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
             "triangles": f"{self.triangle_test} test",
             "points on triangles": self.triangle_points,
@@ -176,4 +182,5 @@ class ErrorModel:
             "large scenes": grows if isfinite(self.largest_extent) else "as all others",
             "output": self.output.in_words(),
             "random numbers": self.random_choices or "none",
+            "departures from the specification": self.departures.in_words(),
         }

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from functools import cache
+from types import FunctionType
+from typing import TYPE_CHECKING, cast
 
 from flint import arb
 
@@ -19,6 +21,7 @@ from raytruth.reference_tracer.source.scene_data import (
 from raytruth.reference_tracer.source.vector import add, cross, dot, subtract
 
 if TYPE_CHECKING:
+    from raytruth.reference_tracer.arithmetics.behaviour import Function
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
 
@@ -28,6 +31,13 @@ edge_slack: Scalar = 2.0**-23
 """How far outside of an edge a ray still hits, in parts of the sum of all three products of Plücker coordinates.
 
 Embree's `ulp`, the machine epsilon of float32 (common/math/constants.h line 120)."""
+
+
+@cache
+def under_name(name: str, function: Function) -> Function:
+    """A function as a helper of this name, of which there may be one of several; no source of the tracer itself."""
+    original = cast("FunctionType", function)
+    return FunctionType(original.__code__, original.__globals__, name, original.__defaults__)
 
 
 def largest_magnitude(x: Scalar, y: Scalar, z: Scalar) -> Scalar:

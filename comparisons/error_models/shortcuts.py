@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from raytruth.comparisons.error_models.departures import NONE
 from raytruth.comparisons.error_models.error_model import RayOffset
 from raytruth.scenes.shapes import Sphere
 
@@ -20,6 +21,11 @@ def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
     return replace(error_model, ray_offset=RayOffset(), shadow_shortening=0.0, shadow_tolerance=0.0)
 
 
+def without_departures(error_model: ErrorModel) -> ErrorModel:
+    """The error model of a renderer that computes what the specification says."""
+    return replace(error_model, departures=NONE)
+
+
 def has_shortcuts(error_model: ErrorModel) -> bool:
     """Whether it declares any: a ray offset, a least distance, shadow rays that end early or overlook what is near.
 
@@ -29,7 +35,7 @@ def has_shortcuts(error_model: ErrorModel) -> bool:
 
 
 def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
-    """How large the shortcuts are in a scene, beside its smallest shape; a clause without an end."""
+    """How large the shortcuts are in a scene, beside its smallest shape, and which departures there are; a clause."""
     offset = error_model.ray_offset
     lengths = {
         "ray offset": offset.absolute + offset.relative * _largest_coordinate(scene),
@@ -44,6 +50,8 @@ def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
     ]
     if error_model.shadow_shortening > 0.0:
         told.append(f"its shadow rays end {error_model.shadow_shortening:.2g} of the distance before the light")
+    if error_model.departures != NONE:
+        told.append(f"its departures from the specification: {error_model.departures.in_words()}")
     return ", ".join(told)
 
 

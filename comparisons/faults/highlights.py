@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from raytruth.comparisons.faults.edits import Edit
+from raytruth.reference_tracer.arithmetics.edits import Edit
 from raytruth.comparisons.faults.fault import fault
 
 

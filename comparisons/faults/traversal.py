@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from raytruth.comparisons.faults.edits import Edit, after, before
+from raytruth.reference_tracer.arithmetics.edits import Edit, after, before
 from raytruth.comparisons.faults.fault import fault
 
 

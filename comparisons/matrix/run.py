@@ -102,5 +102,6 @@ def run_cells(planned: Sequence[PlannedCell], directory: Path) -> list[Cell]:
     has_image = any(cell.place.integrator.gives != "first hits" for cell in planned)
     feasible = kept_feasible_set(scene, error_model, with_colors=has_image)
     shortcuts = shortcuts_in_words(error_model, scene)
-    expectation = expectation_of(scene, judged_truth(scene), feasible, shortcuts)
+    rays = error_model.camera_rays
+    expectation = expectation_of(scene, judged_truth(scene, rays), feasible, shortcuts, rays)
     return [run_cell(cell.place, cell.depth, expectation, directory) for cell in planned]

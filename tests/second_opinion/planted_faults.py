@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.faults.edits import Edit, edited
+from raytruth.reference_tracer.arithmetics.edits import Edit, edited
 from raytruth.comparisons.faults.fault import Subject, words_of
 
 if TYPE_CHECKING:
