@@ -35,6 +35,12 @@ COMMANDS = {
         "required renderer is missing; with --strict also if one is as declared, not as due. "
         "Examples: `raytruth run`, `raytruth run whitted-1980 mine.json --renderer mitsuba --out results`",
     ),
+    "judge": (
+        "raytruth.judge_command:judge",
+        "Judge finished pictures of a scene, whoever rendered them.",
+        "Exit status as that of `raytruth run`. Examples: `raytruth judge mine.exr --scene whitted-1980`, "
+        "`raytruth judge mine.png --scene mine.json --renderer-file mine.toml --out results`",
+    ),
     "scenes": ("raytruth.scenes_commands:app", "List, show, validate and export scenes.", ""),
     "renderers": (
         "raytruth.renderers_command:renderers",

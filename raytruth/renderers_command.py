@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
+from cyclopts import Parameter
 from rich.console import Console
 from rich.padding import Padding
 from rich.text import Text
 
-from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers
+from raytruth.comparisons.renderers.catalogue import UnknownRendererError, all_renderers, select_renderers
+from raytruth.comparisons.renderers.program.declaration_file import DeclarationError, checked_declaration
+from raytruth.comparisons.renderers.program.declaration_schema import json_schema
+from raytruth.comparisons.renderers.program.starting_file import starting_text
 from raytruth.comparisons.renderers.protocol import shown_error_model, versions_in_words, why_unavailable
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time
-from raytruth.output import print_json, progress
+from raytruth.output import print_json, progress, say
+from raytruth.programs import programs_of
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.requirements import required_features
 
@@ -20,18 +27,37 @@ if TYPE_CHECKING:
     from raytruth.comparisons.renderers.protocol import Renderer
 
 
-def renderers(*names: str, as_json: AsJson = False) -> None:
+def renderers(
+    *names: str,
+    renderer_file: Annotated[tuple[Path, ...], Parameter(negative="")] = (),
+    init: Annotated[str | None, Parameter(show_default=False)] = None,
+    schema: Annotated[bool, Parameter(negative="")] = False,
+    as_json: AsJson = False,
+) -> None:
     """Show who can render here, what each can do, and how to install the rest.
 
     Parameters
     ----------
     names
         Only these renderers; all of them by default.
+    renderer_file
+        Also a program of your own, as this TOML file declares it.
+    init
+        Write NAME.toml, a commented file that declares a program of your own of this name, and nothing else.
+    schema
+        Print the JSON Schema that such files obey, and nothing else.
     as_json
         Print one JSON document instead of text.
     """
+    if schema:
+        print_json(json_schema())
+        return
+    if init is not None:
+        say(f"Wrote {_start(init)}; edit it, then: raytruth run --quick --renderer-file {init}.toml")
+        return
+    programs = programs_of((), renderer_file)
     try:
-        selected = select_renderers(names)
+        selected = (select_renderers(names) if names or not programs else {}) | programs
     except UnknownRendererError as error:
         raise UsageError(str(error)) from error
     records = []
@@ -47,6 +73,27 @@ def renderers(*names: str, as_json: AsJson = False) -> None:
             _print_block(console, record)
         else:
             print("\t".join((record["name"], *_clauses(record).values())))
+
+
+def _start(name: str) -> Path:
+    """The file to start from. Raises UsageError where the name will not do, or where there is such a file."""
+    path = Path(f"{name}.toml")
+    try:
+        checked_declaration(tomllib.loads(starting_text(name)), "--init")
+    except tomllib.TOMLDecodeError as error:
+        raise UsageError(
+            f"--init: expected a name of lower-case letters, digits and hyphens, found {name!a}."
+        ) from error
+    except DeclarationError as error:
+        raise UsageError(str(error)) from error
+    if name in all_renderers():
+        raise UsageError(f"--init: {name} is one of raytruth's own renderers; choose another name.")
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(starting_text(name))
+    except FileExistsError as error:
+        raise UsageError(f"--init: {path} is there already; it is left as it is.") from error
+    return path
 
 
 def _clauses(record: dict[str, Any]) -> dict[str, str]:

@@ -24,6 +24,7 @@ from raytruth.comparisons.renderers.protocol import why_unavailable
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, expect_folder, open_scene
 from raytruth.output import progress, tell
+from raytruth.programs import programs_of
 from raytruth.reports.console import print_matrix
 from raytruth.reports.wording import printable
 from raytruth.scenes.library import library_names
@@ -43,6 +44,8 @@ FAILED = 1
 def run(
     *scenes: str,
     renderer: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    renderer_command: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    renderer_file: Annotated[tuple[Path, ...], Parameter(negative="")] = (),
     require: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     out: Path = Path("results"),
     jobs: int | None = None,
@@ -65,6 +68,12 @@ def run(
         Names of library scenes, or paths of scene files; the whole library by default.
     renderer
         Only this renderer; all by default. May be given several times, or several names with commas.
+    renderer_command
+        A program of your own, as in `--renderer-command 'mine=./tracer {scene} {output}'`: it reads the scene's JSON
+        file and writes an OpenEXR picture, or another as in {output}.pfm. May be given several times.
+    renderer_file
+        A program of your own as a TOML file declares it, which `raytruth renderers --init NAME` writes to start from.
+        Where programs are given and no --renderer, only they run.
     require
         Renderers that must be available, on pain of exit status 1.
     out
@@ -86,9 +95,11 @@ def run(
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
     expect_folder(out)
-    required = _selected("--require", require) if require else {}
-    selected = _selected("--renderer", renderer) | required
-    known_failures = _waivers(waivers)
+    programs = programs_of(renderer_command, renderer_file)
+    # Who names a program wants it judged: one that cannot run is no success.
+    required = {**programs, **(_selected("--require", require) if require else {})}
+    selected = (_selected("--renderer", renderer) if renderer or not programs else {}) | required
+    known_failures = _waivers(waivers, programs)
     if quick and scenes:
         raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
     opened = _opened(write_quick_suite(out) if quick else scenes or library_names())
@@ -98,19 +109,30 @@ def run(
             plan = plan_run(opened, list(selected.values()), out, fresh=fresh)
         try:
             cells = _run(plan, out, jobs or os.cpu_count() or 1)
-            with progress("Measuring global differences"):
-                cells = with_metrics(out, cells)
         except KeyboardInterrupt:
             # What is finished can be shown, and the next run goes on from there.
-            finished = plan_run(opened, list(selected.values()), out, fresh=False).settled
-            waived, _ = apply_waivers(known_failures, finished, plan.versions)
-            write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), waived)
+            cells = list(plan_run(opened, list(selected.values()), out, fresh=False).settled)
+            _written(out, opened, selected, plan, cells, known_failures)
             raise
-        cells, unmatched = apply_waivers(known_failures, cells, plan.versions)
-        results = write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), cells)
+        results, cells, unmatched = _written(out, opened, selected, plan, cells, known_failures)
         report = written_report(out, unless_current=True)
     _show(results, report, as_json)
     return _status(cells, _missing(required, plan), unmatched, strict=strict)
+
+
+def _written(
+    out: Path,
+    opened: Mapping[str, Scene],
+    selected: Mapping[str, Renderer],
+    plan: Plan,
+    cells: Sequence[Cell],
+    known_failures: Sequence[Waiver],
+) -> tuple[Results, list[Cell], list[str]]:
+    """The results as they are written, this run's cells as they are waived, and what is told of unmatched waivers."""
+    waived, unmatched = apply_waivers(known_failures, cells, plan.versions)
+    with_versions = [(renderer, plan.versions[name]) for name, renderer in selected.items()]
+    results = write_results(out, _command(), list(opened.values()), with_versions, waived)
+    return results, waived, unmatched
 
 
 def _tell_damage(out: Path) -> None:
@@ -134,16 +156,12 @@ def _missing(required: Mapping[str, Renderer], plan: Plan) -> dict[str, str]:
     return {name: reason for name, reason in reasons.items() if reason is not None}
 
 
-def _waivers(path: Path | None) -> tuple[Waiver, ...]:
+def _waivers(path: Path | None, programs: Mapping[str, Renderer]) -> tuple[Waiver, ...]:
     """The waivers that raytruth knows itself, and those in the file."""
     try:
-        return load_waivers() + (load_waivers(path) if path is not None else ())
+        return load_waivers() + (load_waivers(path, programs.values()) if path is not None else ())
     except WaiverError as error:
         raise UsageError(str(error)) from error
-
-
-def _with_versions(selected: Mapping[str, Renderer], plan: Plan) -> list[tuple[Renderer, str | None]]:
-    return [(renderer, plan.versions[name]) for name, renderer in selected.items()]
 
 
 def _split(option: str, names: Sequence[str]) -> list[str]:
@@ -166,7 +184,7 @@ def _opened(sources: Iterable[str]) -> dict[str, Scene]:
 
 
 def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:
-    """Render and judge what the plan leaves to do, saying how far it has come."""
+    """Render, judge and measure what the plan leaves to do, saying how far it has come."""
     total = sum(len(cells) for cells in plan.by_scene.values())
     cells = list(plan.settled)
     console = Console(stderr=True)
@@ -179,7 +197,8 @@ def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:
             if not console.is_terminal:
                 line = f"[{done}/{total}] {cell.scene} {cell.renderer} {cell.integrator}: {cell.verdict}"
                 tell(line)
-    return cells
+    with progress("Measuring global differences"):
+        return with_metrics(out, cells)
 
 
 def _command() -> str:

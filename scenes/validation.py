@@ -22,6 +22,7 @@ _EXPECTED = {
     "finite_number": "a finite number",
     "float_type": "a number",
     "int_type": "a whole number",
+    "bool_type": "true or false",
     "string_type": "a text in quotes",
     "string_too_short": "a text that is not empty",
     "tuple_type": "a list in square brackets",
@@ -40,8 +41,8 @@ _EXPECTED = {
 _TAG_POSITION = {"camera": 1, "lights": 2, "objects": 2}
 
 
-def problems_of(error: ValidationError, prefix: Location = ()) -> list[tuple[str, str]]:
-    """(place, sentence) for each error; `prefix` is where the validated part stands in the scene."""
+def problems_of(error: ValidationError, prefix: Location = (), root: type[BaseModel] = Scene) -> list[tuple[str, str]]:
+    """(place, sentence) for each error; `prefix` is where the validated part stands in the whole, a `root`."""
     problems = []
     for details in error.errors(include_url=False):
         # A list whose items are all wrong is not too short as well.
@@ -51,17 +52,17 @@ def problems_of(error: ValidationError, prefix: Location = ()) -> list[tuple[str
         if details["type"] == "string_unicode":
             continue
         location = prefix + details["loc"]
-        problems.append((place(_without_tags(location)), _sentence(details, location)))
+        problems.append((place(_without_tags(location)), _sentence(details, location, root)))
     return problems
 
 
-def _sentence(details: ErrorDetails, location: Location) -> str:
+def _sentence(details: ErrorDetails, location: Location, root: type[BaseModel]) -> str:
     kind = details["type"]
     context: dict[str, Any] = details.get("ctx", {})
     found = described(details["input"])
     if kind == "extra_forbidden":
         key = str(location[-1])
-        return f"expected no key {quoted(key)} here; {suggestion(key, _known_keys(location[:-1]))}"
+        return f"expected no key {quoted(key)} here; {suggestion(key, _known_keys(location[:-1], root))}"
     if kind == "missing":
         what = "one more number" if isinstance(location[-1], int) else "this key"
         return f"expected {what}, found nothing; add it."
@@ -70,14 +71,14 @@ def _sentence(details: ErrorDetails, location: Location) -> str:
     if kind == "value_error":
         return f"{context['error']}."
     if kind in ("union_tag_invalid", "union_tag_not_found"):
-        return _tag_sentence(details["input"], context["discriminator"].strip("'"), location)
+        return _tag_sentence(details["input"], context["discriminator"].strip("'"), location, root)
     expected = "expected " + _EXPECTED[kind].format(**context) if kind in _EXPECTED else details["msg"]
     return f"{expected}, found {found}."
 
 
-def _tag_sentence(value: object, key: str, location: Location) -> str:
+def _tag_sentence(value: object, key: str, location: Location, root: type[BaseModel]) -> str:
     """The sentence on an object whose kind (shape, projection, …) is missing or unknown."""
-    tags = _tags_at(location, key)
+    tags = _tags_at(location, key, root)
     stated = value.get(key) if isinstance(value, dict) else None
     expected = f"expected a key {quoted(key)} with one of {', '.join(map(quoted, tags))}"
     return f"{expected}, found {'no such key' if stated is None else described(stated)}."
@@ -94,17 +95,21 @@ def _without_tags(location: Location) -> Location:
     )
 
 
-def _known_keys(location: Location) -> set[str]:
+def _known_keys(location: Location, root: type[BaseModel]) -> set[str]:
     """The keys that the object at this location (with tags) may have."""
-    return {key for model in _models_at(location) for key in model.model_fields if (model, key) != (Scene, "name")}
+    return {
+        key for model in _models_at(location, root) for key in model.model_fields if (model, key) != (Scene, "name")
+    }
 
 
-def _tags_at(location: Location, key: str) -> list[str]:
-    return sorted(tag for model in _models_at(location) for tag in typing.get_args(model.model_fields[key].annotation))
+def _tags_at(location: Location, key: str, root: type[BaseModel]) -> list[str]:
+    return sorted(
+        tag for model in _models_at(location, root) for tag in typing.get_args(model.model_fields[key].annotation)
+    )
 
 
-def _models_at(location: Location) -> set[type[BaseModel]]:
-    models: set[type[BaseModel]] = {Scene}
+def _models_at(location: Location, root: type[BaseModel]) -> set[type[BaseModel]]:
+    models = {root}
     for index, step in enumerate(location):
         if isinstance(step, int) or (index == 1 and location[0] == "materials"):
             continue

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 LARGEST_CODES = {"uint8": 255, "uint16": 65535}
 """The code of 1; 0 is the code of 0."""
 
+# Darker colours are written as 0 (Ward's `setcolr`: `if (d <= 1e-32)`).
+DARKEST_RGBE = 1e-32
+
 # Renderers whose own numbers are wider may still go through float32 on their way to a file.
 FLOAT32_ROUNDOFF = 2.0**-24
 # To float32, times the largest code, plus a half.
@@ -39,7 +42,8 @@ CURVE_ROUNDOFFS = 32
 class OutputModel:
     """The numbers that a renderer writes for a radiance. Raises ValueError for integers that are not clipped."""
 
-    numbers: Literal["uint8", "uint16", "float16", "float32", "float64"] = "float32"
+    numbers: Literal["uint8", "uint16", "float16", "float32", "float64", "rgbe"] = "float32"
+    """`rgbe`: three mantissas of 8 bits with one exponent (Ward, "Real Pixels", Graphics Gems II, 1991)."""
     transfer: Literal["linear", "sRGB"] = "linear"
     """Whether the curve of sRGB (IEC 61966-2-1:1999, section 5.2) is applied before rounding."""
     rounding: Literal["nearest", "truncation"] = "nearest"
@@ -57,13 +61,19 @@ class OutputModel:
             raise ValueError("integers hold nothing outside [0, 1], so their output is clipped or bracketed")
         if self.bracketed and (self.clipped or self.numbers not in LARGEST_CODES or self.transfer != "linear"):
             raise ValueError("only linear integers are bracketed, and then they are not clipped")
+        if self.numbers == "rgbe" and self.transfer != "linear":
+            raise ValueError("colours with one exponent are linear")
 
     def interval_read(self, low: ArrayLike, high: ArrayLike) -> tuple[Array, Array]:
         """The linear values that may be read where the radiance is in [low, high]; NaN stays NaN.
 
-        Above what a format can hold the ends are infinite, as what is written there.
+        Above what a format can hold the ends are infinite, as what is written there. The last axis is that of
+        a colour's channels, which matters to `rgbe` only.
         """
-        return self._end_read(np.asarray(low, np.float64), -1), self._end_read(np.asarray(high, np.float64), 1)
+        ends = np.asarray(low, np.float64), np.asarray(high, np.float64)
+        if self.numbers == "rgbe":
+            return self._shared_exponent(*ends)
+        return self._end_read(ends[0], -1), self._end_read(ends[1], 1)
 
     def linear_values(self, written: ArrayLike) -> Array:
         """The linear values that a file's codes or numbers stand for; the largest code of integers is 1."""
@@ -79,13 +89,27 @@ class OutputModel:
         colors = f", of colours computed within {self.color_error:.3g}" if self.color_error > 0.0 else ""
         return f"{self.numbers}, {self.transfer}, {rounding}, {clipping}{colors}"
 
-    def _end_read(self, radiance: Array, side: int) -> Array:
-        """The lowest (side -1) or highest (side 1) value that may be read for this radiance."""
+    def _encoded(self, radiance: Array, side: int) -> Array:
+        """The lowest or highest number that this radiance may become before it is rounded."""
         computed = (
             radiance + side * self.color_error * np.maximum(np.abs(radiance), 1.0) if self.color_error else radiance
         )
         clipped = np.clip(computed, 0.0, 1.0) if self.clipped else computed
-        encoded = srgb_encoded(clipped) if self.transfer == "sRGB" else clipped
+        return srgb_encoded(clipped) if self.transfer == "sRGB" else clipped
+
+    def _shared_exponent(self, low: Array, high: Array) -> tuple[Array, Array]:
+        """A code more to either side: encoders round or cut off, and decoders add half a code or none.
+
+        A code is 2^(e - 8), where the brightest channel is below 2^e. What is darker than 1e-32 is written as 0.
+        """
+        low, high = self._encoded(low, -1) * (1 - self._slack()), self._encoded(high, 1) * (1 + self._slack())
+        brightest = np.maximum(high.max(axis=-1, keepdims=True), DARKEST_RGBE)
+        code = np.maximum(np.ldexp(1.0, np.frexp(brightest)[1] - 8), DARKEST_RGBE)
+        return np.maximum(low - code, 0.0), high + code
+
+    def _end_read(self, radiance: Array, side: int) -> Array:
+        """The lowest (side -1) or highest (side 1) value that may be read for this radiance."""
+        encoded = self._encoded(radiance, side)
         exposure = self._exposure(encoded, side) if self.bracketed else 1.0
         encoded = encoded * exposure
         written = self._integers(encoded, side) if self.numbers in LARGEST_CODES else self._floats(encoded, side)

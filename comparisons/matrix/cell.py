@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +20,7 @@ from raytruth.comparisons.records.image_files import write_image
 from raytruth.comparisons.records.pixel_evidence import write_pixel_evidence
 from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.records.results import Cell, Images, Verdict
+from raytruth.comparisons.renderers.catalogue import command_of
 from raytruth.comparisons.renderers.protocol import error_model_of
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ class CellPlace:
     @property
     def command(self) -> str:
         """The command that repeats the cell."""
-        return f"raytruth run {shlex.quote(self.source)} --renderer {self.renderer.name} --fresh"
+        return command_of(self.renderer, self.source)
 
 
 def run_cell(place: CellPlace, depth: int, expectation: Expectation, directory: Path) -> Cell:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.feasible_sets.kept_feasible_sets import FEASIBLE_SET_ROOMS
+from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
 from raytruth.reference_tracer.storage.source_digest import ROOT, files_digest, source_digest
 
 if TYPE_CHECKING:
@@ -51,8 +52,12 @@ def cell_key(of_scene: str, renderer: Renderer, integrator: Integrator, version:
 
 
 def adapter_digest(renderer: Renderer) -> str:
-    """A digest of the file of the renderer's class, and of those in the folders ADAPTERS that it uses."""
-    return _digest_with_imports(Path(inspect.getfile(type(renderer))))
+    """A digest of the file of the renderer's class, and of those in the folders ADAPTERS that it uses.
+
+    Of a user's program it is another when the program or what is declared of it is.
+    """
+    code = _digest_with_imports(Path(inspect.getfile(type(renderer))))
+    return f"{code} {renderer.digest}" if isinstance(renderer, ProgramRenderer) else code
 
 
 @functools.cache

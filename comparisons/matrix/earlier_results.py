@@ -133,5 +133,5 @@ def renderer_record(renderer: Renderer, its_version: str | None) -> RendererReco
         install=renderer.install,
         error_model=shown_error_model(renderer, its_version).description,
         integrators={integrator.name: integrator.light_paths.format(depth="n") for integrator in renderer.integrators},
-        family=family_of(renderer.name),
+        family=family_of(renderer),
     )

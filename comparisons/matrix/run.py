@@ -10,10 +10,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from raytruth.comparisons.error_models.shortcuts import shortcuts_in_words
-from raytruth.comparisons.feasible_sets.kept_feasible_sets import kept_feasible_set
 from raytruth.comparisons.judgement.judged_truth import judged_truth
-from raytruth.comparisons.judgement.verdict import expectation_of
+from raytruth.comparisons.judgement.kept_expectation import kept_expectation
 from raytruth.comparisons.matrix.cell import TRUTH_FILE, run_cell, settled_cell
 from raytruth.comparisons.processes.interruption import at_work, interruption_held_back, start_worker
 from raytruth.comparisons.records.image_files import write_image
@@ -100,8 +98,5 @@ def run_cells(planned: Sequence[PlannedCell], directory: Path) -> list[Cell]:
     """The feasible set of one scene and one error model, then every cell that is judged by it."""
     scene, error_model = planned[0].place.scene, planned[0].error_model
     has_image = any(cell.place.integrator.gives != "first hits" for cell in planned)
-    feasible = kept_feasible_set(scene, error_model, with_colors=has_image)
-    shortcuts = shortcuts_in_words(error_model, scene)
-    rays = error_model.camera_rays
-    expectation = expectation_of(scene, judged_truth(scene, rays), feasible, shortcuts, rays)
+    expectation = kept_expectation(scene, error_model, with_colors=has_image)
     return [run_cell(cell.place, cell.depth, expectation, directory) for cell in planned]

@@ -18,6 +18,8 @@ from raytruth.scenes.wording import described, place, quoted, suggestion
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+    from raytruth.comparisons.renderers.protocol import Renderer
+
 PACKAGED = Path(__file__).with_name("waivers.json")
 """The failures of renderers on scenes of the library."""
 
@@ -50,8 +52,11 @@ class Waiver(Record):
 _WAIVERS = TypeAdapter(tuple[Waiver, ...])
 
 
-def load_waivers(path: Path = PACKAGED) -> tuple[Waiver, ...]:
-    """The waivers in a JSON file, a list of objects with the keys of Waiver. Raises WaiverError."""
+def load_waivers(path: Path = PACKAGED, programs: Iterable[Renderer] = ()) -> tuple[Waiver, ...]:
+    """The waivers in a JSON file, a list of objects with the keys of Waiver. Raises WaiverError.
+
+    They may be about renderers that raytruth knows, and about these programs of its user.
+    """
     try:
         waivers = _WAIVERS.validate_json(path.read_bytes())
     except OSError as error:
@@ -59,7 +64,7 @@ def load_waivers(path: Path = PACKAGED) -> tuple[Waiver, ...]:
     except ValidationError as error:
         raise WaiverError(f"{path}: {_first_problem(error)}") from error
     for number, waiver in enumerate(waivers):
-        for key, name, known in _names(waiver):
+        for key, name, known in _names(waiver, programs):
             if name not in known:
                 problem = f"there is none called {quoted(name)}: {suggestion(name, known)}"
                 raise WaiverError(f"{path}: [{number}].{key}: {problem}")
@@ -99,9 +104,9 @@ def _found(cell: Cell, waiver: Waiver) -> str:
     return f"the verdict is {cell.verdict}: remove it"
 
 
-def _names(waiver: Waiver) -> Iterator[tuple[str, str, list[str]]]:
+def _names(waiver: Waiver, programs: Iterable[Renderer]) -> Iterator[tuple[str, str, list[str]]]:
     """Key, name, and which names there are."""
-    renderers = all_renderers()
+    renderers = all_renderers() | {program.name: program for program in programs}
     yield "renderer", waiver.renderer, list(renderers)
     if waiver.renderer in renderers:
         yield "integrator", waiver.integrator, [known.name for known in renderers[waiver.renderer].integrators]

@@ -15,9 +15,13 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import IO
+from typing import IO, TYPE_CHECKING
 
+from raytruth.comparisons.processes.process_count import LOOK_SECONDS, MOST_PROCESSES, ProcessCount
 from raytruth.comparisons.records.renderings import RendererError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 LOG_FILE = "log.txt"
 # Renderers print some kilobytes; this leaves room for a verbose one and is nothing to a disk.
@@ -44,14 +48,16 @@ def run_isolated(
     memory_bytes: int,
     output_bytes: int = LOG_BYTES,
     file_bytes: int = FILE_BYTES,
+    environment: Mapping[str, str] | None = None,
 ) -> None:
     """Run a command in a session of its own, in `folder`, with its standard output and error in `folder/log.txt`.
 
     `seconds` of wall-clock time, `memory_bytes` of address space per process, `output_bytes` of log, and `file_bytes`
-    per file that it writes. Its standard input is empty, its temporary files are removed. When this returns or raises,
-    the process and all its descendants are gone. Raises RendererError, in one sentence with the end of the log, unless
-    it ends with exit status 0 within the limits and leaves no process behind; then what it wrote, but for the log, is
-    removed.
+    per file that it writes; of processes as many as process_count.py allows. It has our environment with the
+    variables of `environment` in it. Its standard input is empty, its temporary files are removed. When this returns or
+    raises, the process and all its descendants are gone. Raises RendererError, in one sentence with the end of the log,
+    unless it ends with exit status 0 within the limits and leaves no process behind; then what it wrote, but for the
+    log, is removed.
     """
     log_path = folder / LOG_FILE
     before = set(folder.iterdir())
@@ -59,17 +65,24 @@ def run_isolated(
     scratch.mkdir()
     try:
         with log_path.open("wb") as log:
-            failure = _run_guarded(command, folder, log, seconds, output_bytes, [memory_bytes, file_bytes])
+            limits = [memory_bytes, file_bytes]
+            failure = _run_guarded(command, folder, log, seconds, output_bytes, limits, environment or {})
         if failure:
             for path in set(folder.iterdir()) - before - {log_path, scratch}:
                 _remove(path)
-            raise RendererError(f"{Path(command[0]).name} {failure}; {_end_of_log(log_path)}")
+            raise RendererError(f"{Path(command[0]).name} {failure}; {end_of_log(log_path)}")
     finally:
         _remove(scratch)
 
 
 def _run_guarded(
-    command: list[str], folder: Path, log: IO[bytes], seconds: float, output_bytes: int, limits: list[int]
+    command: list[str],
+    folder: Path,
+    log: IO[bytes],
+    seconds: float,
+    output_bytes: int,
+    limits: list[int],
+    environment: Mapping[str, str],
 ) -> str | None:
     """What went wrong, in a clause; None if nothing did."""
     reader, writer = os.pipe()
@@ -78,7 +91,7 @@ def _run_guarded(
             guard = subprocess.Popen(
                 [*_GUARD, *(str(number) for number in (writer, *limits)), *command],
                 cwd=folder,
-                env={**os.environ, "TMPDIR": str((folder / _SCRATCH).resolve())},
+                env={**os.environ, **environment, "TMPDIR": str((folder / _SCRATCH).resolve())},
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
@@ -124,13 +137,16 @@ def _copy_until_exit(pid: int, output: IO[bytes], log: IO[bytes], seconds: float
     room = output_bytes
     os.set_blocking(output.fileno(), False)
     exit_notice = os.pidfd_open(pid)
+    processes = ProcessCount(pid)
     try:
         with selectors.DefaultSelector() as selector:
             selector.register(output, selectors.EVENT_READ)
             selector.register(exit_notice, selectors.EVENT_READ)
             ended = False
             while not ended:
-                ready = {key.fd for key, _ in selector.select(max(0.0, deadline - time.monotonic()))}
+                ready = {key.fd for key, _ in selector.select(min(LOOK_SECONDS, max(0.0, deadline - time.monotonic())))}
+                if processes.is_too_high():
+                    return f"had more than {MOST_PROCESSES} processes at once"
                 # Looked at before the pipe is drained: what a process wrote before it ended is in the pipe by then.
                 ended = exit_notice in ready
                 while chunk := _read_available(output):
@@ -178,7 +194,8 @@ def _signal_name(number: int) -> str:
         return str(number)
 
 
-def _end_of_log(path: Path) -> str:
+def end_of_log(path: Path) -> str:
+    """What a program said last, as a clause on one line."""
     with path.open("rb") as log:
         log.seek(0, os.SEEK_END)
         log.seek(max(0, log.tell() - _CHUNK_BYTES))

@@ -53,8 +53,8 @@ def write_channels(path: Path, image: NDArray[np.float32], names: Sequence[str])
         with unfinished_file(path) as file:
             buffer = OpenImageIO.ImageBuf(spec)
             buffer.set_pixels(OpenImageIO.ROI.All, image)
-            if not buffer.write(_name_of(file)):
-                raise ImageError(f"{path}: the image could not be written ({_text(buffer.geterror)})")
+            if not buffer.write(name_for_openimageio(file)):
+                raise ImageError(f"{path}: the image could not be written ({error_text(buffer.geterror)})")
     except OSError as error:
         raise ImageError(f"{path}: the image could not be written ({error.strerror})") from error
 
@@ -80,9 +80,11 @@ def read_channels(
     """
     if not path.is_file():
         raise ImageError(f"{path}: there is no such image file")
-    source = OpenImageIO.ImageInput.open(_name_of(path))
+    source = OpenImageIO.ImageInput.open(name_for_openimageio(path))
     if source is None:
-        raise ImageError(f"{path}: expected an OpenEXR image, but it cannot be opened ({_text(OpenImageIO.geterror)})")
+        raise ImageError(
+            f"{path}: expected an OpenEXR image, but it cannot be opened ({error_text(OpenImageIO.geterror)})"
+        )
     try:
         names = _names_in_header(path, source)
         if not are_right(names):
@@ -91,7 +93,7 @@ def read_channels(
             raise ImageError(f"{path}: expected an image of one part, found several; write each to its own file")
         pixels = source.read_image("float")
         if pixels is None or source.has_error:
-            raise ImageError(f"{path}: the image is damaged ({_text(source.geterror)})")
+            raise ImageError(f"{path}: the image is damaged ({error_text(source.geterror)})")
     except UnicodeDecodeError as error:  # OpenImageIO's strings come from the file as they are
         raise ImageError(f"{path}: the image's header is damaged, a name in it is not UTF-8") from error
     finally:
@@ -99,7 +101,7 @@ def read_channels(
     return np.asarray(pixels, dtype=np.float32), names
 
 
-def _name_of(path: Path) -> str:
+def name_for_openimageio(path: Path) -> str:
     """For OpenImageIO, which takes text only."""
     try:
         str(path).encode()
@@ -125,7 +127,7 @@ def _names_in_header(path: Path, source: OpenImageIO.ImageInput) -> tuple[str, .
     return tuple(str(name) for name in spec.channelnames)
 
 
-def _text(message: object) -> str:
+def error_text(message: object) -> str:
     """OpenImageIO's account of its last error on one line; it may quote bytes of the file that are no text."""
     try:
         return " ".join(str(message()).split()) if callable(message) else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.renderers.closed_form.adapter import ClosedFormRenderer
@@ -10,6 +11,8 @@ from raytruth.comparisons.renderers.embree.adapter import embree, embree_robust
 from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_llvm, mitsuba_scalar
 from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.comparisons.renderers.povray import PovRay
+from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
+from raytruth.comparisons.renderers.program.finished_image import FinishedImage
 from raytruth.comparisons.renderers.vtk.adapter import Vtk
 from raytruth.scenes.wording import quoted, suggestion
 
@@ -23,9 +26,18 @@ if TYPE_CHECKING:
 _FAMILIES = {"mitsuba-llvm": "mitsuba", "embree-robust": "embree", "raytruth": None}
 
 
-def family_of(name: str) -> str | None:
+def family_of(renderer: Renderer) -> str | None:
     """The project whose opinion a renderer is, which counts once; None for the tracer that the truth comes from."""
-    return _FAMILIES.get(name, name)
+    if isinstance(renderer, ProgramRenderer):
+        return renderer.declaration.family or renderer.name
+    return _FAMILIES.get(renderer.name, renderer.name)
+
+
+def command_of(renderer: Renderer, source: str) -> str:
+    """What judges a renderer again, on the scene that this names on the command line."""
+    if isinstance(renderer, ProgramRenderer | FinishedImage):
+        return renderer.command(source)
+    return f"raytruth run {shlex.quote(source)} --renderer {renderer.name} --fresh"
 
 
 class UnknownRendererError(Exception):

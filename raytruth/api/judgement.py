@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from raytruth.comparisons.error_models.shortcuts import shortcuts_in_words
 from raytruth.comparisons.feasible_sets.kept_feasible_sets import kept_feasible_set
-from raytruth.comparisons.judgement.judged_truth import judged_truth
+from raytruth.comparisons.judgement.kept_expectation import kept_expectation
 from raytruth.comparisons.judgement.pixel_verdict import with_shortcuts
-from raytruth.comparisons.judgement.verdict import expectation_of, judge_exact
+from raytruth.comparisons.judgement.verdict import judge_exact
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -71,8 +70,9 @@ def judge(image: NDArray[np.floating[Any]], scene: Scene, error_model: ErrorMode
     """
     _check(image, scene)
     values: Any = image.astype(np.float64)  # holds every number of the narrower types
-    judged = judge_exact(values, expectation_of(scene, judged_truth(scene), kept_feasible_set(scene, error_model)))
-    verdict, reason = with_shortcuts(judged.verdict, judged.reason, shortcuts_in_words(error_model, scene))
+    expectation = kept_expectation(scene, error_model)
+    judged = judge_exact(values, expectation)
+    verdict, reason = with_shortcuts(judged.verdict, judged.reason, expectation.shortcuts)
     counts = judged.judgement
     assert counts.worst is not None, "an image has a pixel"
     return ImageJudgement(

@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from raytruth.export_command import FORMATS
+from raytruth.scenes.exporters.formats import FORMATS
 from raytruth.scenes.library import open_scene
 from tests.raytruth.running import document, refusal, run
 

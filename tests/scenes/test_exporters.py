@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from raytruth.export_command import FORMATS
+from raytruth.scenes.exporters.formats import FORMATS
 from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.lights import PointLight

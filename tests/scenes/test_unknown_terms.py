@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from raytruth.export_command import FORMATS
 from raytruth.scenes.consistency import inconsistencies, parts_of
 from raytruth.scenes.exporters import cycles_limits
+from raytruth.scenes.exporters.formats import FORMATS
 from raytruth.scenes.features import Feature
 from raytruth.scenes.hidden_lights import may_be_hidden
 from raytruth.scenes.light_paths import LETTERS, comparable_depth

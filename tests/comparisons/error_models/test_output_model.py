@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.clause("VER-5")
 
-FORMATS = get_args(get_type_hints(OutputModel)["numbers"])
+FORMATS = [numbers for numbers in get_args(get_type_hints(OutputModel)["numbers"]) if numbers != "rgbe"]
+"""Those that have numbers for each channel apart."""
 MODELS = [
     OutputModel(numbers, transfer, rounding, clipped)
     for numbers in FORMATS
@@ -253,3 +254,33 @@ def test_brackets_and_errors_of_colours_are_told_in_words() -> None:
         "uint16, linear, rounded to the nearest, at the brightest of the exposures 1, 1/2, 1/4, … that does not clip, "
         "of colours computed within 0.25"
     )
+
+
+def ward_rgbe(color: tuple[float, ...], *, rounds: bool) -> list[float]:
+    """What is read of a colour that is written as Ward does ("Real Pixels", Graphics Gems II), or as who rounds does.
+
+    Ward decodes with half a code more. Who rounds up to 256 takes the next exponent.
+    """
+    if max(color) <= 1e-32:
+        return [0.0, 0.0, 0.0]
+    exponent = math.frexp(max(color))[1]
+    if rounds and round(math.ldexp(max(color), 8 - exponent)) == 256:
+        exponent += 1
+    scaled = [math.ldexp(channel, 8 - exponent) for channel in color]
+    codes = [round(number) if rounds else math.floor(number) for number in scaled]
+    return [math.ldexp(code + (0.0 if rounds else 0.5), exponent - 8) for code in codes]
+
+
+@given(
+    color=st.tuples(*[st.one_of(st.just(0.0), st.floats(1e-34, 1e12), st.floats(0.0, 2.0))] * 3), rounds=st.booleans()
+)
+def test_of_a_shared_exponent_what_is_read_lies_within_a_code_of_the_brightest_channel(
+    color: tuple[float, ...], rounds: bool
+) -> None:
+    low, high = OutputModel("rgbe").interval_read(np.array(color), np.array(color))
+    read = np.array(ward_rgbe(color, rounds=rounds))
+    assert ((low <= read) & (read <= high)).all()
+    # 256 codes are less than twice the brightest; a hundredth of it that is amiss is found.
+    assert ((high - low) <= max(2 / 128 * max(color) * 1.001, 2e-32)).all()
+    with pytest.raises(ValueError, match="linear"):
+        OutputModel("rgbe", transfer="sRGB")

@@ -214,3 +214,22 @@ def test_memory_without_end_is_refused(tmp_path: Path) -> None:
 def test_a_program_that_does_not_exist_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(RendererError, match=r"exit status 127.*not found"):
         run_isolated([str(tmp_path / "no-such-program")], tmp_path, seconds=GENEROUS_SECONDS, memory_bytes=MEMORY)
+
+
+def test_variables_of_the_environment_reach_the_child_beside_ours(tmp_path: Path) -> None:
+    code = "import os; assert os.environ['OMP_NUM_THREADS'] == '1'; assert os.environ['PATH']"
+    command = [sys.executable, "-c", code]
+    environment = {"OMP_NUM_THREADS": "1"}
+    run_isolated(command, tmp_path, seconds=GENEROUS_SECONDS, memory_bytes=MEMORY, environment=environment)
+
+
+@pytest.mark.parametrize(
+    "bomb",
+    ["while True: os.fork()", "while True:\n    if os.fork(): os._exit(0)\n    os.fork()"],
+    ids=["a tree", "whose parents end"],
+)
+def test_one_that_starts_others_without_end_is_stopped_before_they_fill_the_machine(bomb: str, tmp_path: Path) -> None:
+    message = failure_of(f"import os; print('child', os.getpid(), flush=True)\n{bomb}", tmp_path)
+    assert "had more than 512 processes at once" in message
+    for child in children_named_in_the_log(tmp_path):
+        assert_ends(child)
