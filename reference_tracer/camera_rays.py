@@ -28,22 +28,27 @@ class CameraRays:
         """What that changes in the tracer's source, whose callers ask for the ray through (i + 1/2, j + 1/2)."""
         if self == CENTRES:
             return IDEAL
+        frame: Function = edited("camera_frame", *self.edits())
+        return Behaviour({"camera_frame": frame}, name="camera rays")
+
+    def edits(self) -> tuple[Edit, ...]:
+        """The edits of `camera_frame` that it takes."""
+        if self == CENTRES:
+            return ()
         right, down = self._pitch("width"), self._pitch("height")
-        frame: Function = edited(
-            "camera_frame",
+        return (
             Edit("-0.5 * width * pixel", f"{self.x - 0.5} * {right} - 0.5 * width * pixel"),
             Edit("-0.5 * height * pixel", f"{self.y - 0.5} * {down} - 0.5 * height * pixel"),
             Edit("scale(right, pixel)", f"scale(right, {right})"),
             Edit("scale(down, pixel)", f"scale(down, {down})"),
         )
-        return Behaviour({"camera_frame": frame}, name="camera rays")
 
     def in_words(self) -> str:
-        """Where the rays go, as a clause for people."""
+        """Which points of pixels the rays go through, as a clause for people."""
         if self == CENTRES:
-            return "through the centres of pixels"
+            return "their centres"
         stretched = ", stretched so that the last is on the image's edge" if self.edge_to_edge else ""
-        return f"{self.x:g} right and {self.y:g} down of the top left corners of pixels{stretched}"
+        return f"{self.x:g} right and {self.y:g} down of their top left corners{stretched}"
 
     def _pitch(self, side: str) -> str:
         return f"(pixel * {side} / ({side} - 1.0))" if self.edge_to_edge else "pixel"

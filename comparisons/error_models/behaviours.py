@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from raytruth.comparisons.error_models.bounded_offsets import bounded_offset_behaviour
 from raytruth.comparisons.error_models.departures import departure_behaviour
+from raytruth.comparisons.error_models.handed_cameras import camera_behaviour
 from raytruth.comparisons.error_models.helpers import HELPERS
 from raytruth.comparisons.error_models.hit_points import hit_point_behaviour
 from raytruth.comparisons.error_models.left_triangles import left_triangle_behaviour
@@ -35,6 +36,6 @@ def behaviour_of(error_model: ErrorModel, scene: Scene) -> Behaviour:
         left_triangle_behaviour(error_model),
         sphere_test_behaviour(error_model, scene),
         rasterisation_behaviour(error_model.rasterisation, scene),
-        error_model.camera_rays.behaviour(),
+        camera_behaviour(error_model, scene),
         departure_behaviour(error_model),
     )

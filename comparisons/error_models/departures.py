@@ -40,9 +40,9 @@ class Departures:
     Each field's first value is what the specification says.
     """
 
-    end_of_depth: Literal["black", "background", "local terms"] = "black"
+    end_of_depth: Literal["black", "background", "local"] = "black"
     """What a reflected or refracted ray brings that may not be traced any more: nothing (TREE-2); the background in its
-    direction; or emission, ambient, diffuse and specular terms of what it meets."""
+    direction; or the local terms of what it meets: emission, ambient, diffuse and specular."""
     fresnel: Literal["exact", "schlick", "schlick on the incident side"] = "exact"
     """How a dielectric splits light: by Fresnel's equations (REFR-4); or by Schlick's approximation, with the cosine on
     the side with the lower index, or always with that of the arriving ray."""
@@ -74,7 +74,8 @@ class Departures:
 
     def _clauses(self) -> Iterator[str]:
         if self.end_of_depth != "black":
-            yield f"paths that end bring the {self.end_of_depth}"
+            brought = "background" if self.end_of_depth == "background" else "local terms of what they would meet"
+            yield f"paths that end bring the {brought}"
         if self.fresnel != "exact":
             side = " with the cosine of incidence" if self.fresnel != "schlick" else ""
             yield f"Schlick's approximation{side} for Fresnel's equations"

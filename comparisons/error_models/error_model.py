@@ -7,6 +7,7 @@ from math import inf, isfinite
 from typing import TYPE_CHECKING, Literal
 
 from raytruth.comparisons.error_models.departures import NONE, Departures
+from raytruth.comparisons.error_models.handed_cameras import FieldOfView  # noqa: TC001 - a field's type
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.reference_tracer.camera_rays import CENTRES, CameraRays
 from raytruth.scenes.extent import extent_of
@@ -122,6 +123,8 @@ class ErrorModel:
     """A pixel's ray may go through any point within so many pixels of its centre, in x and in y."""
     camera_rays: CameraRays = CENTRES
     """Through which point of each pixel its ray goes: the truth that it is held to is that of these rays."""
+    field_of_view: FieldOfView = "vertical"
+    """Which side of the image the angle belongs to that it is told of a camera (handed_cameras.py)."""
     departures: Departures = NONE
     """What it computes otherwise than the specification says, on purpose."""
     rasterisation: Rasterisation | None = None
@@ -169,7 +172,9 @@ class ErrorModel:
         return {
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
-            "camera rays go": around if self.image_radius > 0.0 else self.camera_rays.in_words(),
+            "camera rays go": around if self.image_radius > 0.0 else "through the points of pixels",
+            "the points of pixels are": self.camera_rays.in_words(),
+            "fields of view are": f"{self.field_of_view}, as they are told to it",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
             "triangles": f"{self.triangle_test} test",
             "points on triangles": self.triangle_points,

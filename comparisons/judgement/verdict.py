@@ -47,6 +47,8 @@ class Expectation:
     """The largest radiance that any ray can bring back. None where none is known: random samples cannot be judged."""
     shortcuts: str = ""
     """How large the shortcuts of the error model are in this scene, in words; empty where there are none."""
+    camera_rays: CameraRays = CENTRES
+    """Through which point of each pixel its ray goes."""
 
 
 def expectation_of(
@@ -60,7 +62,8 @@ def expectation_of(
 
     Both are of these rays of the pixels.
     """
-    return Expectation(scene, truth, Rays(*primary_rays(scene, camera_rays)), feasible, radiance_bound(scene), shortcuts)
+    rays = Rays(*primary_rays(scene, camera_rays))
+    return Expectation(scene, truth, rays, feasible, radiance_bound(scene), shortcuts, camera_rays)
 
 
 @dataclass(frozen=True)

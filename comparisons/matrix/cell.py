@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from raytruth.comparisons.feasible_sets.costly_lines import costliest_line
 from raytruth.comparisons.judgement.exact_test import largest_error
 from raytruth.comparisons.judgement.first_hit_test import judge_first_hits, verdict_of_first_hits
 from raytruth.comparisons.judgement.pixel_verdict import together, with_shortcuts
@@ -22,6 +23,7 @@ from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.records.results import Cell, Images, Verdict
 from raytruth.comparisons.renderers.catalogue import command_of
 from raytruth.comparisons.renderers.protocol import error_model_of
+from raytruth.reference_tracer.camera_rays import CENTRES
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -106,6 +108,10 @@ def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path
         truth = f"{place.folder}/{AREA_MEANS_FILE}"
         write_image(folder / AREA_MEANS_FILE, expectation.truth.astype(np.float32))
         judged = judge_light_paths(rendering, expectation)
+    elif expectation.camera_rays != CENTRES:  # the truth of these rays is its own
+        truth = f"{place.folder}/{TRUTH_FILE}"
+        write_image(folder / TRUTH_FILE, expectation.truth.astype(np.float32))
+        judged = judge_exact(rendering.image, expectation)
     elif rendering.batch_means is not None:
         judged = judge_noisy(rendering, expectation)
     else:
@@ -114,6 +120,8 @@ def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path
     if hits is not None:
         verdict, reason = together((verdict, reason), verdict_of_first_hits(hits))
     verdict, reason = with_shortcuts(verdict, reason, expectation.shortcuts)
+    if verdict == Verdict.INCOMPARABLE:
+        reason = "; ".join(filter(None, [reason, _costliest_line(place, expectation)]))
     return Cell(
         **told,
         verdict=verdict,
@@ -123,6 +131,16 @@ def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path
         stochastic=judged.test,
         images=_written(rendering, judged, truth, place, folder),
     )
+
+
+def _costliest_line(place: CellPlace, expectation: Expectation) -> str:
+    """Which line of what the renderer declares keeps most pixels from being judged, in words; nothing if none does."""
+    error_model = error_model_of(place.renderer, place.version)
+    unjudged = np.argwhere(expectation.feasible.outcomes == 0)
+    if error_model is None or not len(unjudged):
+        return ""
+    pixels = [(column, row) for row, column in unjudged.tolist()]
+    return costliest_line(place.scene, error_model.in_scene(place.scene), pixels)
 
 
 def _displaced(place: CellPlace) -> str | None:
