@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.error_models.bounded_offsets import bounded_offset_behaviour
-from raytruth.comparisons.error_models.departures import departure_behaviour
-from raytruth.comparisons.error_models.handed_cameras import camera_behaviour
+from raytruth.comparisons.error_models.camera_behaviours import camera_behaviour
+from raytruth.comparisons.error_models.departure_edits import departure_behaviour
 from raytruth.comparisons.error_models.helpers import HELPERS
 from raytruth.comparisons.error_models.hit_points import hit_point_behaviour
 from raytruth.comparisons.error_models.left_triangles import left_triangle_behaviour

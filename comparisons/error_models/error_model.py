@@ -172,8 +172,8 @@ class ErrorModel:
         return {
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
-            "camera rays go": around if self.image_radius > 0.0 else "through the points of pixels",
-            "the points of pixels are": self.camera_rays.in_words(),
+            "camera rays go": around if self.image_radius > 0.0 else "through the centres of pixels",
+            "what counts as centres": self.camera_rays.in_words(),
             "fields of view are": f"{self.field_of_view}, as they are told to it",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
             "triangles": f"{self.triangle_test} test",

@@ -159,7 +159,7 @@ class OutputModel:
 
     def _scale_slack(self) -> float:
         """How far scale, product and quotient may be off: a rounding of float32 each, none for a power of two."""
-        return 0.0 if np.frexp(self.scale)[0] == 0.5 else SCALE_ROUNDOFFS * FLOAT32_ROUNDOFF  # noqa: PLR2004 - of 2^n
+        return 0.0 if np.frexp(self.scale)[0] == 0.5 else SCALE_ROUNDOFFS * FLOAT32_ROUNDOFF
 
     def _slack(self) -> float:
         """How far a renderer's own rounding may move a number before it is written, relatively."""

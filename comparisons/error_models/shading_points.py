@@ -57,7 +57,8 @@ def beside_surface(primitive: int, point: Vector, normal: Vector) -> Vector:
 
 def from_surface(primitive: int, point: Vector, normal: Vector, to_light: Vector, light_is_near: bool) -> Vector:
     """The direction to a light from the point of the surface, where a shadow ray takes its end from; the light stays
-    where it is."""
+    where it is.
+    """
     if light_is_near:
         return subtract(add(lit_point(primitive, point, normal), to_light), point)
     return to_light

@@ -53,9 +53,7 @@ def at_the_start(new: str) -> Edit:
     return Edit("", new)
 
 
-def edited(
-    function: str, *edits: Edit, of: Function | None = None, helpers: Collection[str] = ()
-) -> Function:
+def edited(function: str, *edits: Edit, of: Function | None = None, helpers: Collection[str] = ()) -> Function:
     """The tracer's function of this name, or another that stands in for it (`of`), with these edits made in turn.
 
     `helpers` are the names of functions beside the tracer's own that edits may use.

@@ -98,7 +98,9 @@ class Conventions(Part):
         """The rays of the pixels as they lie in the scene's image, after flips are undone."""
         edge_to_edge = self.pitch != "size"
         x, y = CORNERS[self.pixel]
-        return CameraRays(_unflipped(x, self.mirrored, edge_to_edge), _unflipped(y, self.flip_y, edge_to_edge), edge_to_edge)
+        return CameraRays(
+            _unflipped(x, self.mirrored, edge_to_edge), _unflipped(y, self.flip_y, edge_to_edge), edge_to_edge
+        )
 
     def handed(self, scene: Scene) -> Scene:
         """The scene as the program is told it, of which `refuses` has nothing to say."""
