@@ -35,8 +35,8 @@ class Departures:
     textured_at: Literal["surface", "offset point"] = "surface"
     """At which of the same two points textures are looked up."""
     highlights: Literal["lit", "shadowed", "everywhere"] = "lit"
-    """Where lights have highlights: where they light the surface (ILL-3); in shadows, too; or in shadows and on surfaces
-    that are turned away from the light."""
+    """Where lights have highlights: where they light the surface (ILL-3); in shadows, too; or also on surfaces that are
+    turned away from the light."""
     clamped_lambert: bool = False
     """Whether the light that all lights send to a point, each times the cosine, is clamped to 1 in each channel before
     the diffuse reflectance is multiplied with it."""

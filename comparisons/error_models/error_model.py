@@ -36,38 +36,89 @@ class RayOffset:
     is_bound: bool = False
     """Whether only some rays are moved, those that would miss the triangle that they leave, and by no more than that.
     So each coordinate of a ray's start may be off by anything up to that, to either side (bounded_offsets.py)."""
+    relative_minimum_distance: float = 0.0
+    """Added to the least distance: so many times the largest absolute coordinate of where the ray starts."""
+    scale: Literal["point", "scene"] = "point"
+    """Of what the largest absolute coordinate is taken that `relative` and `relative_minimum_distance` are multiplied
+    with: of the point that a ray leaves, or of all points of the scene's shapes, spheres as a whole."""
+    error_bound: float = 0.0
+    """In roundoffs: a start is moved along the normal by anything up to so many of the numbers that its point is
+    computed from (start_bounds.py), as by who derives the offset from a bound of the point's error."""
+    in_units: bool = False
+    """Whether coordinates are moved by units in the last place of float32, as Wächter and Binder do (2019)."""
 
     def __post_init__(self) -> None:
-        if min(self.absolute, self.relative, self.minimum_distance) < 0.0:
+        numbers = (self.absolute, self.relative, self.minimum_distance)
+        if min(*numbers, self.relative_minimum_distance, self.error_bound) < 0.0:
             raise ValueError("a ray offset is not negative")
+        others = self.needs_policies or self.error_bound > 0.0
+        if self.is_bound and others:
+            raise ValueError("a bound on an offset is declared without any of the other policies")
+        if self.in_units and (self.absolute, self.relative, self.error_bound, self.along) != (0.0, 0.0, 0.0, "normal"):
+            raise ValueError("coordinates that are moved by units in the last place are moved by nothing else")
+        if self.error_bound > 0.0 and self.along == "direction":
+            raise ValueError("a bound of a point's error moves starts along the normal")
         if self.is_bound and not (self.moves_rays and self.excludes_surface):
             raise ValueError(
                 "a bound on an offset is above 0, and the surface is excluded, on whichever side a ray starts"
             )
-        if self.excludes_surface and (self.minimum_distance > 0.0 or self.along == "direction"):
-            raise ValueError("with a least distance, or an offset along the ray, a surface is tested as all others are")
 
     @property
     def moves_rays(self) -> bool:
         """Whether rays start beside the surface."""
-        return self.absolute > 0.0 or self.relative > 0.0
+        return max(self.absolute, self.relative, self.error_bound) > 0.0 or self.in_units
+
+    @property
+    def ignores_near_hits(self) -> bool:
+        """Whether there is a least distance, the one shortcut that camera rays take."""
+        return self.minimum_distance > 0.0 or self.relative_minimum_distance > 0.0
+
+    @property
+    def needs_policies(self) -> bool:
+        """Whether ray_policies.py tells it, and not ray_offsets.py."""
+        return (
+            self.relative_minimum_distance > 0.0
+            or self.scale == "scene"
+            or self.error_bound > 0.0
+            or self.in_units
+            or (self.excludes_surface and (self.minimum_distance > 0.0 or self.along == "direction"))
+        )
 
     def in_words(self) -> str:
         """The offset as a clause for people, as in `raytruth renderers`."""
         start = f"{self._length()} along the {self._vector()}" if self.moves_rays else "on the surface"
         start = f"up to {start}, to either side" if self.is_bound else start
-        nearest = f", hits nearer than {self.minimum_distance:.3g} are ignored" if self.minimum_distance > 0.0 else ""
+        least = _length_in_words(self.minimum_distance, self.relative_minimum_distance, self._largest("o"))
+        nearest = f", hits nearer than {least} are ignored" if self.ignores_near_hits else ""
         left = "cannot be hit again there" if self.excludes_surface else "is tested as all others are"
         return f"{start}{nearest}; the surface {left}"
 
     def _length(self) -> str:
-        if self.absolute == self.relative:
-            return f"{self.absolute:.3g}·(1 + max|p|)"
-        terms = [f"{self.absolute:.3g}"] if self.absolute > 0.0 else []
-        return " + ".join([*terms, *([f"{self.relative:.3g}·max|p|"] if self.relative > 0.0 else [])])
+        if self.in_units:
+            return "256 units of float32 in the last place, or 2^-16 near 0, for each coordinate"
+        length = _length_in_words(self.absolute, self.relative, self._largest("p"))
+        bound = f"up to {self.error_bound:.3g} roundoffs of the point's terms" if self.error_bound > 0.0 else ""
+        return " and ".join(filter(None, [length, bound]))
+
+    def _largest(self, point: str) -> str:
+        return f"max|{point}|" if self.scale == "point" else "the scene's largest coordinate"
 
     def _vector(self) -> str:
         return "normal" if self.along == "normal" else "ray"
+
+
+AIMS = {
+    "light": "from their start to the light",
+    "parallel": "in the direction from the surface to the light",
+    "either": "to the light, or in the direction from the surface to it",
+}
+
+
+def _length_in_words(absolute: float, relative: float, largest: str) -> str:
+    if absolute == relative and absolute > 0.0:
+        return f"{absolute:.3g}·(1 + {largest})"
+    terms = [f"{absolute:.3g}"] if absolute > 0.0 else []
+    return " + ".join([*terms, *([f"{relative:.3g}·{largest}"] if relative > 0.0 else [])])
 
 
 @dataclass(frozen=True)
@@ -99,6 +150,7 @@ class ErrorModel:
     precision_bits: int
     """The relative error of one operation is at most 2^-precision_bits, slack for another order of them included."""
     ray_offset: RayOffset = field(default_factory=RayOffset)
+    """Of all rays that leave a surface, but for the three below; camera rays have its least distance."""
     shadow_shortening: float = 0.0
     """Shadow rays end at this fraction of the light's distance before the light."""
     shadow_tolerance: float = 0.0
@@ -108,14 +160,29 @@ class ErrorModel:
     that has them in units of its own, and gets larger scenes in larger units, has them so many times longer there."""
     index_bits: int | None = None
     """Indices of refraction are rounded to this many bits when they are stored, if to fewer than all else."""
-    triangle_test: Literal["watertight", "moeller-trumbore", "pluecker"] = "watertight"
-    """Which formula decides whether a ray meets a triangle: the truth's own, or one of triangle_tests.py."""
+    triangle_test: Literal[
+        "watertight",
+        "moeller-trumbore",
+        "pluecker",
+        "moeller-trumbore of 1997",
+        "cramer",
+        "plane and inside",
+    ] = "watertight"
+    """Which formula decides whether a ray meets a triangle: the truth's own, or one of triangle_tests.py. The second and
+    the third are Embree's."""
     triangle_points: Literal["along the ray", "barycentric"] = "along the ray"
     """How the point is found where a ray meets a triangle: from its distance, or from its corners with the weights of
     the triangle test (hit_points.py)."""
-    sphere_test: Literal["accurate", "from the foot", "from the foot, accurate for shadows"] = "accurate"
-    """Which formula decides where a ray meets a sphere: the truth's own, or those of sphere_tests.py. The last has
-    formulas of float64 for what a ray needs not to know the place of."""
+    sphere_test: Literal[
+        "accurate",
+        "quadratic",
+        "stable quadratic",
+        "geometric",
+        "from the foot",
+        "from the foot, accurate for shadows",
+    ] = "accurate"
+    """Which formula decides where a ray meets a sphere: the truth's own, one of sphere_formulas.py, or those of
+    sphere_tests.py. The last has formulas of float64 for what a ray needs not to know the place of."""
     sphere_points: Literal["along the ray", "normalised", "put back"] = "along the ray"
     """How point and normal are found where a ray meets a sphere: p = o + t·d and (p - c)/r; this p, and p - c made a
     unit vector; or that and the point of the sphere that lies in its direction (hit_points.py)."""
@@ -132,19 +199,63 @@ class ErrorModel:
     output: OutputModel = field(default_factory=OutputModel)
     random_choices: str = ""
     """What it draws random numbers for; empty if nothing. The adapter tells for which scenes (`is_stochastic`)."""
+    shadow_offset: RayOffset | None = None
+    """Of shadow rays alone; None: `ray_offset`, as for the next two."""
+    reflected_offset: RayOffset | None = None
+    refracted_offset: RayOffset | None = None
+    shadow_aim: Literal["light", "parallel", "either"] = "light"
+    """Where shadow rays go that start beside the surface: to the light, or in the direction from the surface to it."""
+    directions: Literal["as in the truth", "normalised", "unnormalised"] = "as in the truth"
+    """Of rays that leave a surface: a mirror's and a refracted one as they come out of their formulas, and a shadow ray
+    as long as the way to the light, with least distances as lengths; all made unit vectors once more; or as the first,
+    but with least distances compared with t in units of the direction's length."""
+    fresnel: Literal["accurate", "cosines"] = "accurate"
+    """Which formula says how a dielectric splits light: the truth's own, or that of dielectric_formulas.py."""
+    refraction: Literal["accurate", "heckbert", "bec"] = "accurate"
+    """The same of the refracted direction, and of whether there is one."""
+    smallest: float = 0.0
+    """A colour may be off by so much whatever it is: what is smaller may have been flushed to 0 on the way."""
 
     def __post_init__(self) -> None:
         if self.image_radius < 0.0:
             raise ValueError("an image radius is not negative")
-        if self.triangle_points == "barycentric" and self.triangle_test == "watertight":
+        if self.triangle_points == "barycentric" and self.triangle_test in {"watertight", "plane and inside"}:
             raise ValueError("points are interpolated with the weights of one of the tests of triangle_tests.py")
         if self.sphere_points == "put back" and self.triangle_points != "barycentric":
             raise ValueError("points are put back on spheres by who interpolates those on triangles")
-        if self.sphere_test != "accurate" and (self.ray_offset.is_bound or not self.ray_offset.excludes_surface):
+        if self.sphere_test.startswith("from the foot") and (
+            self.ray_offset.is_bound or not self.ray_offset.excludes_surface
+        ):
             raise ValueError("spheres are tested from the foot by who leaves them as they are, or along their normal")
+        if self.smallest < 0.0:
+            raise ValueError("what is flushed to zero is not negative")
+        of_references = self.sphere_test.startswith("from the foot") or self.shadow_tolerance > 0.0
+        if self.needs_policies and (of_references or any(offset.is_bound for offset in self.offsets())):
+            raise ValueError(
+                "a test from the foot, a shadow tolerance and a bound on an offset do not go with policies apart for "
+                "kinds of rays, nor with the formulas of sphere_formulas.py"
+            )
         nearest = self.ray_offset.minimum_distance
         if self.shadow_tolerance and (self.ray_offset.excludes_surface or self.shadow_tolerance < nearest):
             raise ValueError("a shadow tolerance is at least the least distance of hits, and excludes no surface")
+
+    def offsets(self) -> tuple[RayOffset, RayOffset, RayOffset, RayOffset]:
+        """Of shadow, reflected, refracted and camera rays."""
+        own = (self.shadow_offset, self.reflected_offset, self.refracted_offset)
+        shadow, reflected, refracted = (self.ray_offset if offset is None else offset for offset in own)
+        return shadow, reflected, refracted, self.ray_offset
+
+    @property
+    def needs_policies(self) -> bool:
+        """Whether ray_policies.py tells what rays do, and not ray_offsets.py."""
+        offsets = self.offsets()
+        return (
+            self.sphere_test in {"quadratic", "stable quadratic", "geometric"}
+            or self.triangle_test in {"moeller-trumbore of 1997", "cramer", "plane and inside"}
+            or self.directions != "as in the truth"
+            or self.shadow_aim != "light"
+            or any(offset != offsets[0] or offset.needs_policies for offset in offsets)
+        )
 
     def in_scene(self, scene: Scene) -> ErrorModel:
         """The error model for this scene: lengths grow by the least power of two that makes room for its extent."""
@@ -168,6 +279,14 @@ class ErrorModel:
         shortened = f"{self.shadow_shortening:.3g} of the distance before the light"
         around = f"within {self.image_radius:.3g} pixels of a pixel's centre, in x and in y"
         near = f"{self.shadow_tolerance:.3g} from the surface or the light may throw a shadow or none"
+        offsets = {
+            f"{kind} rays start": "as all others" if offset is None else offset.in_words()
+            for kind, offset in (
+                ("shadow", self.shadow_offset),
+                ("reflected", self.reflected_offset),
+                ("refracted", self.refracted_offset),
+            )
+        }
         grows = f"where rays go farther than {self.largest_extent:.4g}, least distances are so many times longer"
         return {
             "summary": self.description,
@@ -182,9 +301,15 @@ class ErrorModel:
             "points on spheres": self.sphere_points,
             "drawing": self.rasterisation.in_words() if self.rasterisation else "none: rays are traced",
             "rays that leave a surface start": self.ray_offset.in_words(),
+            **offsets,
+            "shadow rays go": AIMS[self.shadow_aim],
+            "directions": self.directions,
+            "Fresnel's formulas": self.fresnel,
+            "refraction": self.refraction,
             "shadow rays end": shortened if self.shadow_shortening > 0.0 else "at the light",
             "what is near": f"nearer than {near}" if self.shadow_tolerance > 0.0 else "throws shadows as all else",
             "large scenes": grows if isfinite(self.largest_extent) else "as all others",
+            "smallest numbers": f"colours may be off by {self.smallest:.3g}" if self.smallest > 0.0 else "are kept",
             "output": self.output.in_words(),
             "random numbers": self.random_choices or "none",
             "departures from the specification": self.departures.in_words(),

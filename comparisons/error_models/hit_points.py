@@ -57,7 +57,12 @@ def hit_point_behaviour(error_model: ErrorModel) -> Behaviour:
     """What is replaced, nothing for who goes along the ray; to be merged with HELPERS. The constants are balls."""
     functions: dict[str, Function] = {}
     if error_model.triangle_points == "barycentric":
-        by_weights = {"pluecker": hit_point_by_pluecker, "moeller-trumbore": hit_point_by_moeller_trumbore}
+        by_weights = {
+            "pluecker": hit_point_by_pluecker,
+            "moeller-trumbore": hit_point_by_moeller_trumbore,
+            "moeller-trumbore of 1997": hit_point_by_moeller_trumbore,  # the same products, each rounded no more often
+            "cramer": hit_point_by_moeller_trumbore,  # likewise
+        }
         functions["hit_point"] = by_weights[error_model.triangle_test]
     if error_model.sphere_points == "normalised":
         functions["sphere_normal"] = normalised_sphere_normal

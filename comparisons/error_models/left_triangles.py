@@ -45,7 +45,7 @@ def left_triangle_behaviour(error_model: ErrorModel) -> Behaviour:
     offset = error_model.ray_offset
     moves = offset.moves_rays and offset.excludes_surface and not offset.is_bound
     from_corners = error_model.triangle_test == "moeller-trumbore" and error_model.triangle_points == "barycentric"
-    if not (moves and from_corners):
+    if error_model.needs_policies or not (moves and from_corners):
         return IDEAL
     roundoff = 2.0**-error_model.precision_bits
     return Behaviour(

@@ -54,9 +54,13 @@ def offset_behaviour(error_model: ErrorModel) -> Behaviour:
     """
     offset, bits = error_model.ray_offset, error_model.precision_bits
     functions: dict[str, Function] = {}
-    if offset.moves_rays and not offset.is_bound:
+    if error_model.needs_policies:
+        pass  # ray_policies.py says where rays start and what they meet
+    elif offset.moves_rays and not offset.is_bound:
         functions["departure"] = departure_along_normal if offset.along == "normal" else departure_along_ray
-    if not offset.excludes_surface:
+    if error_model.needs_policies:
+        pass
+    elif not offset.excludes_surface:
         functions["distance_to_sphere"] = distance_to_any_sphere
         functions["distance_to_triangle"] = distance_to_any_triangle
     elif offset.moves_rays and not offset.is_bound:

@@ -5,9 +5,10 @@ They are source of the tracer. What is declared beside them for their sake are h
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from raytruth.comparisons.error_models.helpers import under_name
+from raytruth.comparisons.error_models.ray_policies import start_of
 from raytruth.reference_tracer.source.features import DIRECTIONAL_LIGHTS, POINT_LIGHTS
 from raytruth.reference_tracer.source.illumination import attenuation, diffuse
 from raytruth.reference_tracer.source.scene_data import (
@@ -24,13 +25,16 @@ from raytruth.reference_tracer.source.shadow import departure, is_shadowed
 from raytruth.reference_tracer.source.vector import add, dot, multiply, negate, normalize, scale, subtract
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.reference_tracer.arithmetics.behaviour import Function
     from raytruth.reference_tracer.source.numbers import Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
 
-    lit_point: Any  # one of the functions below, as the next
-    textured_point: Any
+    Place = Callable[[int, Vector, Vector], Vector]
+    lit_point: Place  # one of the functions below, as the next
+    textured_point: Place
 
 SHADING_POINT = {
     "lit": "lit_point(primitive, point, normal)",
@@ -39,9 +43,13 @@ SHADING_POINT = {
 """How they are called where light is summed up."""
 
 
-def shading_point_helper(name: str, error_model: ErrorModel, *, beside: bool) -> Function:  # noqa: ARG001 - policies of rays will ask
-    """The helper of this name: the point of the surface itself, or beside it, where rays leave it along the normal."""
-    return under_name(name, beside_surface if beside else on_surface)
+def shading_point_helper(name: str, error_model: ErrorModel, *, beside: bool) -> Function:
+    """The helper of this name: the point of the surface itself, or beside it, where rays leave it along the normal.
+
+    Where kinds of rays leave it otherwise each, that is where shadow rays do.
+    """
+    leaving = beside_surface_by_policy if error_model.needs_policies else beside_surface
+    return under_name(name, leaving if beside else on_surface)
 
 
 def on_surface(primitive: int, point: Vector, normal: Vector) -> Vector:  # noqa: ARG001 - the signature of the other
@@ -53,6 +61,11 @@ def beside_surface(primitive: int, point: Vector, normal: Vector) -> Vector:
     """Where a ray starts that leaves the surface along its normal."""
     start, _ = departure(primitive, point, normal, normal)
     return start
+
+
+def beside_surface_by_policy(primitive: int, point: Vector, normal: Vector) -> Vector:
+    """Where a shadow ray starts that leaves the surface along its normal."""
+    return start_of(0, primitive, point, normal, normal)
 
 
 def from_surface(primitive: int, point: Vector, normal: Vector, to_light: Vector, light_is_near: bool) -> Vector:

@@ -17,8 +17,12 @@ if TYPE_CHECKING:
 
 
 def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
-    """The error model without its shortcuts: rays start on the surface, shadow rays end at the light."""
-    return replace(error_model, ray_offset=RayOffset(), shadow_shortening=0.0, shadow_tolerance=0.0)
+    """The error model without its shortcuts: rays start on the surface, shadow rays end at the light.
+
+    Formulas stay, and what is flushed to zero: they are arithmetic.
+    """
+    offsets = {"ray_offset": RayOffset(), "shadow_offset": None, "reflected_offset": None, "refracted_offset": None}
+    return replace(error_model, **offsets, shadow_aim="light", shadow_shortening=0.0, shadow_tolerance=0.0)
 
 
 def without_departures(error_model: ErrorModel) -> ErrorModel:
@@ -36,10 +40,10 @@ def has_shortcuts(error_model: ErrorModel) -> bool:
 
 def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
     """How large the shortcuts are in a scene, beside its smallest shape, and which departures there are; a clause."""
-    offset = error_model.ray_offset
+    offsets, scale = error_model.offsets(), _largest_coordinate(scene)
     lengths = {
-        "ray offset": offset.absolute + offset.relative * _largest_coordinate(scene),
-        "least distance": offset.minimum_distance,
+        "ray offset": max(_longest_offset(offset, scale, error_model.precision_bits) for offset in offsets),
+        "least distance": max(o.minimum_distance + o.relative_minimum_distance * scale for o in offsets),
         "shadow tolerance": error_model.shadow_tolerance,
     }
     size, what = _smallest(scene)
@@ -53,6 +57,14 @@ def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
     if error_model.departures != NONE:
         told.append(f"its departures from the specification: {error_model.departures.in_words()}")
     return ", ".join(told)
+
+
+def _longest_offset(offset: RayOffset, scale: float, precision_bits: int) -> float:
+    """How far a ray may start beside a surface, at the most, where no coordinate is larger than `scale`."""
+    by_units = max(2.0**-16, 2.0**-15 * scale) if offset.in_units else 0.0
+    # A normal's coordinates sum up to no more than the root of 3.
+    by_bound = 3.0**0.5 * offset.error_bound * 2.0**-precision_bits * scale
+    return offset.absolute + offset.relative * scale + by_units + by_bound
 
 
 def _largest_coordinate(scene: Scene) -> float:

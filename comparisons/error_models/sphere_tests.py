@@ -70,7 +70,7 @@ def sphere_test_behaviour(error_model: ErrorModel, scene: Scene) -> Behaviour:
     The tracer asks `nearest_sphere` for the nearest hit, and `distance_to_sphere` whether anything is hit. To be merged
     with HELPERS and `offset_behaviour`. The constants are balls.
     """
-    if error_model.sphere_test == "accurate":
+    if not error_model.sphere_test.startswith("from the foot"):
         return IDEAL
     in_float64 = error_model.sphere_test == "from the foot, accurate for shadows"
     roundoff = 2.0**-error_model.precision_bits

@@ -40,7 +40,7 @@ LINES = {
     "sphere_points": "sphere_normals",
     "triangle_test": "triangle",
 }
-"""What the fields of an error model are called in a declaration; all others have the names of its keys or none there."""
+"""What the fields of an error model are called in a declaration; others have the names of its keys, or none there."""
 
 NO_LINES = {"description", "output", "camera_rays", "field_of_view", "random_choices", "largest_extent"}
 """Fields that leave no more open than the picture's numbers do, or that nothing follows from."""

@@ -127,7 +127,7 @@ def feasible_set(
                 outcomes[place] = due_as_far_as(with_truth(due, pixels[place], truth), outcomes[place])
             else:
                 outcomes[place] = beside_what_is_due(outcomes[place], due)
-        if error_model.ray_offset.minimum_distance > 0.0:  # the one shortcut that camera rays take
+        if error_model.ray_offset.ignores_near_hits:  # the one shortcut that camera rays take
             _, due_hits = ideal.colors_and_hits(pixels, with_colors=False)
             first_hits = [hits_beside_what_is_due(*both) for both in zip(hits, due_hits, strict=True)]
     if not departs:
@@ -157,7 +157,8 @@ def _due_outcomes(
 
 def _as_arrays(scene: Scene, error_model: ErrorModel, outcomes: list[Outcomes], hits: list[DueHits]) -> FeasibleSet:
     size = (scene.camera.height, scene.camera.width)
-    low, high = error_model.output.interval_read(*_gathered([of_pixel.boxes for of_pixel in outcomes], size, 3))
+    ends = _gathered([of_pixel.boxes for of_pixel in outcomes], size, 3)
+    low, high = error_model.output.interval_read(*_flushed(*ends, error_model.smallest))
     primitives = [[hit.primitive for hit, _ in of_pixel] for of_pixel in hits]
     hit_bounds = [[bounds_of(hit.values or NO_VALUES) for hit, _ in of_pixel] for of_pixel in hits]
     hit_low, hit_high = FIRST_HIT_OUTPUT.interval_read(*_gathered(hit_bounds, size, HIT_VALUES))
@@ -171,6 +172,13 @@ def _as_arrays(scene: Scene, error_model: ErrorModel, outcomes: list[Outcomes], 
         hit_high=hit_high,
         hit_due=_in_places([[is_due for _, is_due in of_pixel] for of_pixel in hits], hit_low.shape[:3], True),
     )
+
+
+def _flushed(
+    low: NDArray[np.float64], high: NDArray[np.float64], smallest: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Boxes that hold also what is off by the smallest number that is kept; 0 and no less of what is not negative."""
+    return np.where(low >= 0.0, np.maximum(low - smallest, 0.0), low - smallest), high + smallest
 
 
 def _in_places(of_pixels: Sequence[Sequence[Any]], shape: tuple[int, ...], unused: Any) -> NDArray[Any]:

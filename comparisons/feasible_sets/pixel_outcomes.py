@@ -45,7 +45,7 @@ class Colors:
 
 
 class PixelOutcomes:
-    """Finds the outcomes of a scene's pixels under one error model; `share` is what they may take of an image's work."""
+    """Finds the outcomes of a scene's pixels under one error model; `share` is their part of an image's work."""
 
     def __init__(
         self,
@@ -72,7 +72,7 @@ class PixelOutcomes:
 
         All pixels are evaluated in plain balls; in linked ones those of which plain ones say nothing, or cannot tell
         all outcomes apart, and those whose boxes are wide beside the image's brightest value, which is at least
-        `brightest`.
+        `brightest`. Where the surface that a ray leaves is tested by a formula, also those with several outcomes.
         """
         colors: list[Colors | None] = []
         hits: list[list[FirstHit] | None] = []
@@ -89,7 +89,7 @@ class PixelOutcomes:
     def _sharpen(self, pixels: Sequence[Pixel], colors: list[Colors | None], brightest: float) -> None:
         model = self._model_of_light
         unclear = [place for place, color in enumerate(colors) if color is None]
-        wide = _wide(colors, brightest)
+        wide = _loose(colors, brightest, model)
         if not unclear and not wide:
             return
         linked = self._linked(model)
@@ -99,8 +99,22 @@ class PixelOutcomes:
             colors[place] = _colors(linked, pixel)
             if colors[place] is None and not linked.spent:
                 colors[place] = _colors(self._plain(model), pixel)
-        for place in sorted(set(_wide(colors, brightest)) - set(unclear)):  # fewer, now that the brightest is known
+        for place in sorted(
+            set(_loose(colors, brightest, model)) - set(unclear)
+        ):  # fewer, now that the brightest is known
             colors[place] = _sharper(_colors(linked, pixels[place]), colors[place])
+
+
+def _loose(colors: Sequence[Colors | None], brightest: float, model: ErrorModel) -> list[int]:
+    """Where linked balls may leave less open: where boxes are wide, or a ray may or may not meet what it has left.
+
+    Plain balls do not know that a point lies on its sphere: only how far off each coordinate may be. So they let a ray
+    meet its own start up to a least distance that is ten times as long.
+    """
+    wide = set(_wide(colors, brightest))
+    if model.needs_policies and not all(offset.excludes_surface for offset in model.offsets()):
+        wide |= {place for place, color in enumerate(colors) if color and len(color.boxes) > 1}
+    return sorted(wide)
 
 
 def _wide(colors: Sequence[Colors | None], brightest: float) -> list[int]:

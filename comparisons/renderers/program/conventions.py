@@ -1,4 +1,4 @@
-"""Conventions of a program's pictures, which are no mistakes: undone before it is judged, each where that loses nothing.
+"""Conventions of a program's pictures, which are no mistakes: undone before it is judged, where nothing is lost.
 
 What moves pixels is undone on the picture. What the program is told is said in its own terms: the side that an angle
 belongs to, the counting of depth. Where its rays go through other points of the pixels, the truth is found for these.
@@ -98,9 +98,8 @@ class Conventions(Part):
         """The rays of the pixels as they lie in the scene's image, after flips are undone."""
         edge_to_edge = self.pitch != "size"
         x, y = CORNERS[self.pixel]
-        return CameraRays(
-            _unflipped(x, self.mirrored, edge_to_edge), _unflipped(y, self.flip_y, edge_to_edge), edge_to_edge
-        )
+        x, y = _unflipped(x, self.mirrored, edge_to_edge), _unflipped(y, self.flip_y, edge_to_edge)
+        return CameraRays(x, y, edge_to_edge)
 
     def handed(self, scene: Scene) -> Scene:
         """The scene as the program is told it, of which `refuses` has nothing to say."""
@@ -108,7 +107,7 @@ class Conventions(Part):
         return scene.model_copy(update={"camera": camera, "max_depth": scene.max_depth + self.depth})
 
     def refuses(self, scene: Scene, samples: int) -> str | None:
-        """Why a picture of this scene, of so many samples or without random numbers, cannot be undone; None if it can."""
+        """Why the conventions cannot be undone in this scene, for so many samples; None if they can."""
         if scene.max_depth + self.depth < 0:
             return f"its depth of {scene.max_depth} would be {scene.max_depth + self.depth} by the program's counting"
         if self.pitch != "size" and min(scene.camera.width, scene.camera.height) == 1:
@@ -121,8 +120,9 @@ class Conventions(Part):
 
 
 def _unflipped(within: float, is_flipped: bool, edge_to_edge: bool) -> float:
-    """Where in the scene's pixel the ray goes: of row j of H in the file, that is through (j + within)·s, s = H/(H - 1).
+    """Where in the scene's pixel the ray goes, if that of row j of H in the file goes through (j + within)·s.
 
+    s is 1, or H/(H - 1) edge to edge.
     Flipped, the scene's row i is that of j = H - 1 - i, and the ray goes through H - (j + within)·s. That is
     i + 1 - within for s = 1, and (i - within)·s edge to edge.
     """

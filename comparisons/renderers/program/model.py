@@ -13,7 +13,7 @@ Weight = Annotated[float, Field(strict=True, ge=0, le=1)]
 
 
 class Model(Part):
-    """Where the program departs from the specification on purpose: it is held to that, and `declared` where one sees it."""
+    """Where the program departs from the specification on purpose; it is held to that, and declared where one sees it."""
 
     end_of_depth: Literal["black", "background", "local"] = Field(
         "black",

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
+from typing import Any
 
 import pytest
 
@@ -22,6 +23,20 @@ CLAUSES = {
     RayOffset(0.25, 0.5): "0.25 + 0.5·max|p| along the normal; the surface cannot be hit again there",
     RayOffset(1e-3, along="direction", excludes_surface=False): (
         "0.001 along the ray; the surface is tested as all others are"
+    ),
+    RayOffset(relative_minimum_distance=1e-4, scale="scene", excludes_surface=False): (
+        "on the surface, hits nearer than 0.0001·the scene's largest coordinate are ignored; "
+        "the surface is tested as all others are"
+    ),
+    RayOffset(minimum_distance=1e-3, relative_minimum_distance=1e-4): (
+        "on the surface, hits nearer than 0.001 + 0.0001·max|o| are ignored; the surface cannot be hit again there"
+    ),
+    RayOffset(error_bound=10): (
+        "up to 10 roundoffs of the point's terms along the normal; the surface cannot be hit again there"
+    ),
+    RayOffset(in_units=True): (
+        "256 units of float32 in the last place, or 2^-16 near 0, for each coordinate along the normal; "
+        "the surface cannot be hit again there"
     ),
     RayOffset(minimum_distance=1e-3, excludes_surface=False): (
         "on the surface, hits nearer than 0.001 are ignored; the surface is tested as all others are"
@@ -53,10 +68,34 @@ def test_light_has_another_precision_only_where_triangles_are_drawn() -> None:
 def test_offsets_that_no_renderer_can_have_are_refused() -> None:
     with pytest.raises(ValueError, match="not negative"):
         RayOffset(absolute=-1e-4)
-    with pytest.raises(ValueError, match="tested as all others"):
-        RayOffset(minimum_distance=1e-4)
-    with pytest.raises(ValueError, match="tested as all others"):
-        RayOffset(absolute=1e-4, along="direction")
+    with pytest.raises(ValueError, match="by nothing else"):
+        RayOffset(absolute=1e-4, in_units=True)
+    with pytest.raises(ValueError, match="along the normal"):
+        RayOffset(error_bound=10, along="direction")
+    with pytest.raises(ValueError, match="any of the other policies"):
+        RayOffset(absolute=1e-4, is_bound=True, scale="scene")
+
+
+@pytest.mark.parametrize(
+    "fields",
+    [
+        {"sphere_test": "from the foot", "directions": "normalised"},
+        {"shadow_tolerance": 1e-3, "triangle_test": "cramer"},
+        {"ray_offset": RayOffset(absolute=1e-3, is_bound=True), "reflected_offset": RayOffset()},
+    ],
+)
+def test_what_references_declare_alone_does_not_go_with_policies_for_kinds_of_rays(fields: Any) -> None:
+    offset = RayOffset(excludes_surface="shadow_tolerance" not in fields)
+    with pytest.raises(ValueError, match="do not go with policies"):
+        ErrorModel("", 24, **{"ray_offset": offset, **fields})
+
+
+def test_kinds_of_rays_have_the_offset_of_all_unless_they_have_their_own() -> None:
+    own, all_others = RayOffset(absolute=1e-3), RayOffset(minimum_distance=1e-4)
+    model = ErrorModel("", 24, all_others, reflected_offset=own)
+    assert model.offsets() == (all_others, own, all_others, all_others)
+    assert model.in_words()["reflected rays start"] == own.in_words()
+    assert model.in_words()["shadow rays start"] == "as all others"
 
 
 def test_a_shadow_tolerance_needs_surfaces_that_are_tested_and_is_no_less_than_the_least_distance() -> None:
