@@ -69,7 +69,8 @@ def _sentence(details: ErrorDetails, location: Location, root: type[BaseModel]) 
     if kind == "too_short":
         return "expected at least one, found none."
     if kind == "value_error":
-        return f"{context['error']}."
+        told = str(context["error"])
+        return told if told.endswith((".", "?")) else f"{told}."
     if kind in ("union_tag_invalid", "union_tag_not_found"):
         return _tag_sentence(details["input"], context["discriminator"].strip("'"), location, root)
     expected = "expected " + _EXPECTED[kind].format(**context) if kind in _EXPECTED else details["msg"]
@@ -91,6 +92,7 @@ def _without_tags(location: Location) -> Location:
         step
         for index, step in enumerate(location)
         if index != tag_position
+        and step != "[key]"  # of an object's key, not of its value
         and not (isinstance(step, str) and step.startswith("<") and not (index == 1 and location[0] == "materials"))
     )
 

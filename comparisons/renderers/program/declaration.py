@@ -243,14 +243,14 @@ class Declaration(Part):
     family: Annotated[str, AfterValidator(_usable_name)] | None = Field(
         None, description="Programs of one family share code, and are one opinion; by default the name."
     )
-    limits: Limits = Field(Limits(), description=str(Limits.__doc__))
-    scenes: Scenes = Field(Scenes(), description=str(Scenes.__doc__))
-    sampling: Sampling = Field(Sampling(), description=str(Sampling.__doc__))
-    arithmetic: Arithmetic = Field(Arithmetic(), description=str(Arithmetic.__doc__))
-    rays: Rays = Field(Rays(), description=str(Rays.__doc__))
-    formulas: Formulas = Field(Formulas(), description=str(Formulas.__doc__))
-    conventions: Conventions = Field(Conventions(), description=str(Conventions.__doc__))
-    model: Model = Field(Model(), description=str(Model.__doc__))
+    limits: Limits = Limits()
+    scenes: Scenes = Scenes()
+    sampling: Sampling = Sampling()
+    arithmetic: Arithmetic = Arithmetic()
+    rays: Rays = Rays()
+    formulas: Formulas = Formulas()
+    conventions: Conventions = Conventions()
+    model: Model = Model()
 
     def uses(self, placeholder: str) -> bool:
         """Whether its command has this placeholder."""

@@ -78,19 +78,14 @@ def _further_problems(declaration: Declaration) -> Iterator[tuple[Location, str]
 
 
 def _without(data: dict[str, Any], wrong: Iterable[tuple[int | str, ...]]) -> dict[str, Any]:
-    """The same without what is wrong: of a list that holds something wrong nothing is left."""
+    """The same without what is wrong: keys of the file, or of one of its tables that has keys of its own."""
     kept = {key: dict(value) if isinstance(value, dict) else value for key, value in data.items()}
     for location in wrong:
-        inside: Any = kept
-        for step in location[:-1]:
-            if not isinstance(inside.get(step), dict):
-                break
-            inside[step] = dict(inside[step])
-            inside = inside[step]
+        table = kept.get(str(location[0]))
+        if len(location) > 1 and isinstance(table, dict) and location[0] != "environment":
+            table.pop(str(location[1]), None)
         else:
-            inside.pop(location[-1], None)
-            continue
-        inside.pop(step, None)
+            kept.pop(str(location[0]), None)
     return kept
 
 

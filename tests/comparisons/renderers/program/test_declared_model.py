@@ -1,0 +1,92 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.renderers.program.declaration import Declaration
+from raytruth.comparisons.renderers.program.declaration_file import checked_declaration
+from raytruth.comparisons.renderers.program.declared_model import JUDGED, error_model_of_declaration
+
+pytestmark = pytest.mark.clause("REN-8")
+
+
+def model(**keys: Any) -> ErrorModel:
+    data = {"name": "mine", "command": ["a", "{scene}", "{output}", "{seed}"], **keys}
+    return error_model_of_declaration(checked_declaration(data, "mine.toml"))
+
+
+def test_without_a_word_it_is_float64_with_39_bits_and_no_shortcut() -> None:
+    assert model() == ErrorModel("numbers of 39 bits, as declared", precision_bits=39)
+
+
+@pytest.mark.parametrize(
+    ("arithmetic", "bits"),
+    [
+        ({"precision": "float64"}, 53),
+        ({"precision": "float32"}, 24),
+        ({"precision": "float32", "slack_bits": 4}, 20),
+        ({"bits": 30}, 30),
+        ({"slack_bits": 2}, 37),
+    ],
+)
+def test_the_bits_are_those_of_the_precision_less_the_slack(arithmetic: dict[str, Any], bits: int) -> None:
+    assert model(arithmetic=arithmetic).precision_bits == bits
+
+
+@pytest.mark.parametrize(
+    ("rays", "offset"),
+    [
+        ({"offset": 1e-4, "relative_offset": 1e-5}, RayOffset(1e-4, 1e-5)),
+        ({"least_distance": 1e-4}, RayOffset(minimum_distance=1e-4, excludes_surface=False)),
+        ({"offset": 1e-4, "along": "ray"}, RayOffset(1e-4, along="direction", excludes_surface=False)),
+        ({"offset": 1e-4, "own_surface": "tested"}, RayOffset(1e-4, excludes_surface=False)),
+    ],
+)
+def test_an_epsilon_is_an_offset_or_a_least_distance(rays: dict[str, Any], offset: RayOffset) -> None:
+    assert model(rays=rays).ray_offset == offset
+    assert model(rays={"shadow_shortening": 0.01}).shadow_shortening == 0.01
+    same = {kind: {"offset": rays["offset"]} for kind in ("shadow", "reflected", "refracted") if "offset" in rays}
+    assert model(rays=rays | same).ray_offset == offset
+
+
+def test_formulas_that_are_known_have_their_names() -> None:
+    declared = model(
+        formulas={"triangle": "pluecker", "triangle_points": "barycentric", "sphere_normals": "normalised"}
+    )
+    assert (declared.triangle_test, declared.triangle_points, declared.sphere_points) == (
+        "pluecker",
+        "barycentric",
+        "normalised",
+    )
+
+
+@pytest.mark.clause("VER-5")
+@pytest.mark.parametrize(
+    ("keys", "output"),
+    [
+        ({"numbers": "half", "clipped": True}, OutputModel("float16", clipped=True)),
+        ({"writes": "pfm", "colours": "srgb"}, OutputModel("float32", "sRGB")),
+        ({"writes": "hdr"}, OutputModel("rgbe")),
+        ({"writes": "png", "colours": "srgb"}, OutputModel("uint8", "sRGB", clipped=True)),
+        (
+            {"writes": "ppm", "numbers": "uint16", "rounding": "truncated"},
+            OutputModel("uint16", rounding="truncation", clipped=True),
+        ),
+    ],
+)
+def test_the_output_follows_from_the_format(keys: dict[str, Any], output: OutputModel) -> None:
+    assert model(**keys).output == output
+
+
+def test_each_value_that_can_be_declared_is_judged_or_refused() -> None:
+    """A key with a choice is either of the output, or in the error model, or has a list of what is judged."""
+    for (part, key), values in JUDGED.items():
+        assert key in type(getattr(Declaration(name="a", command=("{scene}",)), part)).model_fields
+        assert values
+
+
+def test_programs_that_declare_the_same_share_feasible_sets() -> None:
+    assert model() == model(family="other", limits={"seconds": 3})
