@@ -25,16 +25,11 @@ from raytruth.reference_tracer.source.shadow import departure, is_shadowed
 from raytruth.reference_tracer.source.vector import add, dot, multiply, negate, normalize, scale, subtract
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.reference_tracer.arithmetics.behaviour import Function
     from raytruth.reference_tracer.source.numbers import Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
 
-    Place = Callable[[int, Vector, Vector], Vector]
-    lit_point: Place  # one of the functions below, as the next
-    textured_point: Place
 
 SHADING_POINT = {
     "lit": "lit_point(primitive, point, normal)",
@@ -55,6 +50,10 @@ def shading_point_helper(name: str, error_model: ErrorModel, *, beside: bool) ->
 def on_surface(primitive: int, point: Vector, normal: Vector) -> Vector:  # noqa: ARG001 - the signature of the other
     """The point itself."""
     return point
+
+
+lit_point = textured_point = on_surface
+"""Helpers of these names, which are what `shading_point_helper` chooses."""
 
 
 def beside_surface(primitive: int, point: Vector, normal: Vector) -> Vector:

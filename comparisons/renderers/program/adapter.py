@@ -106,10 +106,9 @@ class ProgramRenderer:
         refused = sorted(required & set(self.declaration.scenes.refuses))
         if refused:
             return f"{self.name} is declared to refuse what the scene requires: {', '.join(refused)}"
-        cannot_be_undone = self.declaration.conventions.refuses(scene, self.declaration.sampling.samples)
-        if cannot_be_undone is not None:
-            return cannot_be_undone
-        return FORMATS[self.declaration.reads].refuses(self.declaration.conventions.handed(scene))
+        conventions, samples = self.declaration.conventions, self.declaration.sampling.samples
+        by_declaration = conventions.refuses(scene, samples) or self.declaration.model.refuses(scene)
+        return by_declaration or FORMATS[self.declaration.reads].refuses(conventions.handed(scene))
 
     def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature
         """On all scenes, if it draws samples."""

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
 from raytruth.comparisons.error_models.departures import Departures
 from raytruth.comparisons.renderers.program.declared_part import Part
+from raytruth.scenes.requirements import used_materials
+
+if TYPE_CHECKING:
+    from raytruth.scenes.scene import Scene
 
 Weight = Annotated[float, Field(strict=True, ge=0, le=1)]
 
 
 class Model(Part):
-    """Where the program departs from the specification on purpose; it is held to that, and declared where one sees it."""
+    """Where the program departs from the specification on purpose; it is held to that, and its cells tell it."""
 
     end_of_depth: Literal["black", "background", "local"] = Field(
         "black",
@@ -45,6 +49,13 @@ class Model(Part):
         description="The sum of all lights' colours times cosines is clamped to 1 before the diffuse reflectance is "
         "multiplied with it.",
     )
+
+    def refuses(self, scene: Scene) -> str | None:
+        """Why a scene cannot be judged with these departures, as what follows 'because'; None if it can."""
+        reflects = any(material.mirror or material.dielectric for material in used_materials(scene))
+        if self.end_of_depth != "black" and scene.max_depth == 0 and reflects:
+            return "without any depth the truth has no reflected and refracted rays that could end otherwise"
+        return None
 
     def departures(self) -> Departures:
         """The same as a part of an error model. Raises ValueError for what does not go together."""
