@@ -90,10 +90,11 @@ def _without_parts(name: str, value: Any, default: Any) -> Iterator[tuple[str, A
     if not is_dataclass(value) or not isinstance(default, type(value)):
         yield name, default
         return
+    bundle: Any = value  # of a class that only its fields are known of here
     for part in fields(value):
         if getattr(value, part.name) != getattr(default, part.name):
             try:
-                yield f"{name}.{part.name}", replace(value, **{part.name: getattr(default, part.name)})  # type: ignore[type-var] - an instance, no class
+                yield f"{name}.{part.name}", replace(bundle, **{part.name: getattr(default, part.name)})
             except ValueError:  # as above
                 continue
 

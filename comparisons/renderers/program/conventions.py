@@ -92,7 +92,7 @@ class Conventions(Part):
 
     def undone(self, pixels: Pixels) -> Pixels:
         """The same pixels from the scene's top left, shape (height, width, …)."""
-        return pixels[:: -1 if self.flip_y else 1, :: -1 if self.mirrored else 1]  # type: ignore[return-value] - a slice of an array is one
+        return pixels[:: -1 if self.flip_y else 1, :: -1 if self.mirrored else 1]
 
     def camera_rays(self) -> CameraRays:
         """The rays of the pixels as they lie in the scene's image, after flips are undone."""

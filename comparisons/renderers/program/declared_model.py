@@ -26,6 +26,9 @@ PRECISIONS = {"float64": 53, "float32": 24}
 FEWEST_BITS = 8
 """As the key `bits` has it: with fewer nearly everything is left open."""
 
+# An angle is converted with some eight roundings of float64, which is 2^-50 of it.
+MOST_BITS_OF_ANGLES = 49
+
 TRIANGLE_TESTS: dict[str, Literal["watertight", "moeller-trumbore", "pluecker"]] = {
     "watertight": "watertight",
     "moeller-trumbore": "moeller-trumbore",
@@ -79,6 +82,9 @@ def contradictions(declaration: Declaration) -> Iterator[tuple[Location, str]]:
         yield ("rays", "own_surface"), told
     if formulas.triangle == "watertight" and formulas.triangle_points == "barycentric":
         yield ("formulas", "triangle_points"), "expected 'along the ray' with the triangle test 'watertight'."
+    if declaration.conventions.field_of_view != "vertical" and precision_bits(declaration) > MOST_BITS_OF_ANGLES:
+        told = f"expected at most {MOST_BITS_OF_ANGLES} bits with a field of view that is not vertical"
+        yield ("arithmetic", "precision"), f"{told}, since the angle told is rounded; leave slack_bits."
     yield from _contradictions_of_model(declaration)
     if declaration.sampling.samples:
         if (declaration.conventions.pixel, declaration.conventions.pitch) != ("centre", "size"):
