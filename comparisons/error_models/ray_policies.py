@@ -18,7 +18,12 @@ from flint import arb
 
 from raytruth.comparisons.error_models.helpers import corners_of, largest_magnitude, under_name
 from raytruth.comparisons.error_models.ray_offsets import comes_back
-from raytruth.comparisons.error_models.sphere_formulas import either_way, quadratic_roots, sphere_formula_behaviour
+from raytruth.comparisons.error_models.sphere_formulas import (
+    either_way,
+    quadratic_roots,
+    sphere_formula_behaviour,
+    squared_length,
+)
 from raytruth.comparisons.error_models.start_bounds import ULP_STEPS, largest_terms, scale_of
 from raytruth.reference_tracer.arithmetics.balls import stored_number
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, Behaviour, merged
@@ -171,7 +176,7 @@ def start_of(kind: int, primitive: int, point: Vector, normal: Vector, direction
         return (x, y, moved_by_units(point[2], normal[2]))
     offset = offset_of(kind, primitive, point)
     if moves_along_ray[kind] > 0.5:
-        return along(point, direction, offset / sqrt(dot(direction, direction)))
+        return along(point, direction, offset / sqrt(dot(direction, direction)))  # to a light it may have any length
     return along(point, normal, offset)
 
 
@@ -191,7 +196,7 @@ def least_distance(kind: int, origin: Vector, direction: Vector) -> Scalar:
     farthest = largest_magnitude(origin[0], origin[1], origin[2])
     least = least_of_hits[kind] + relative_least_of_hits[kind] * farthest
     if least_is_a_length > 0.5:
-        return least / sqrt(dot(direction, direction))
+        return least / sqrt(squared_length(direction))
     return least
 
 
@@ -259,7 +264,7 @@ def other_side(kind: int, sphere: int, origin: Vector, direction: Vector, center
     half_linear = dot(direction, from_center)
     if half_linear >= 0.0:
         return inf
-    direction_squared = dot(direction, direction)
+    direction_squared = squared_length(direction)
     # The offset is found at the moved start; twice the offset's own share covers how much that differs.
     offset = bound_of(kind, sphere, origin) * (1.0 + 2.0 * relative_length_of_offset[kind] * either_way)
     if moves_along_ray[kind] > 0.5:

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     Roots = tuple[Scalar, Scalar]
     """Both t at which the line meets the sphere, the smaller one first; infinity twice where it does not."""
 
+about_one_squared: Scalar = 1.0
+"""What the squared length may be of what was just made a unit vector."""
 nearly_a_unit: Scalar = 0.0
 """How far the squared length of what is meant for a unit vector may be from 1."""
 between_nothing_and_all: Scalar = 0.0
@@ -32,9 +34,12 @@ between_nothing_and_all: Scalar = 0.0
 either_way: Scalar = 0.0
 """Between -1 and 1: a root of which nothing but a bound is known."""
 
-# A vector is made a unit vector with a squared length off by 12 roundoffs at most (3 of its own square, a root, a
-# quotient and a product, each of these three twice, and 3 of the square that is taken of it), and each mirror or
-# refraction adds less than 16 to that. This is enough for 15 of them in a row.
+# A vector is made a unit vector with a squared length off by 12 roundoffs at most: 3 of its own square, a root, a
+# quotient and a product, each of these three twice, and 3 of the square that is taken of it. Four are for the products
+# of errors, and for who takes the reciprocal first.
+ONE_UNIT_ROUNDOFFS = 16
+# Each mirror or refraction adds no more than that where the normal is a unit vector: this is enough for 15 in a row.
+# Where it is not, the squared length is further from 1, and a formula that leaves it out is wrong by that.
 UNIT_ROUNDOFFS = 256
 
 
@@ -46,9 +51,14 @@ def sphere_formula_behaviour(error_model: ErrorModel) -> Behaviour:
         "stable quadratic": stable_quadratic_roots,
         "geometric": geometric_roots,
     }
+    unit = error_model.directions == "normalised"
     return Behaviour(
-        helpers=(squared_length, under_name("sphere_roots", formulas[error_model.sphere_test])),
+        helpers=(
+            under_name("squared_length", squared_length_of_unit if unit else squared_length),
+            under_name("sphere_roots", formulas[error_model.sphere_test]),
+        ),
         constants={
+            "about_one_squared": arb(1, ONE_UNIT_ROUNDOFFS * 2.0**-error_model.precision_bits),
             "nearly_a_unit": arb(UNIT_ROUNDOFFS * 2.0**-error_model.precision_bits),
             "between_nothing_and_all": arb(0.5, 0.5),
             "either_way": arb(0, 1),
@@ -66,10 +76,15 @@ def squared_length(direction: Vector) -> Scalar:
     return squared
 
 
+def squared_length_of_unit(direction: Vector) -> Scalar:  # noqa: ARG001 - the signature of the function that it stands for
+    """The same of a direction that was just made a unit vector: balls do not know that all of its parts make 1."""
+    return about_one_squared
+
+
 def accurate_roots(origin: Vector, direction: Vector, center: Vector, radius: Scalar) -> Roots:
     """As `sphere_distance` of the truth: the squared half chord by whichever way loses less, a root by the product."""
     to_origin = subtract(origin, center)
-    direction_squared = dot(direction, direction)
+    direction_squared = squared_length(direction)
     foot = -dot(direction, to_origin) / direction_squared
     radius_squared = radius * radius
     constant = dot(to_origin, to_origin) - radius_squared

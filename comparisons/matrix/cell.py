@@ -102,20 +102,8 @@ def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path
         assert hits is not None, "checked with the sizes"
         verdict, reason = with_shortcuts(*verdict_of_first_hits(hits), expectation.shortcuts)
         return Cell(**told, verdict=verdict, reason=reason)
-    truth = f"cells/{place.scene.name}/{TRUTH_FILE}"
-    if place.integrator.follows == "light paths":
-        expectation = of_pixel_areas(expectation)
-        truth = f"{place.folder}/{AREA_MEANS_FILE}"
-        write_image(folder / AREA_MEANS_FILE, expectation.truth.astype(np.float32))
-        judged = judge_light_paths(rendering, expectation)
-    elif expectation.camera_rays != CENTRES:  # the truth of these rays is its own
-        truth = f"{place.folder}/{TRUTH_FILE}"
-        write_image(folder / TRUTH_FILE, expectation.truth.astype(np.float32))
-        judged = judge_exact(rendering.image, expectation)
-    elif rendering.batch_means is not None:
-        judged = judge_noisy(rendering, expectation)
-    else:
-        judged = judge_exact(rendering.image, expectation)
+    truth, expectation = _truth_of(place, expectation, folder)
+    judged = _judged_image(rendering, place, expectation)
     verdict, reason = judged.verdict, judged.reason
     if hits is not None:
         verdict, reason = together((verdict, reason), verdict_of_first_hits(hits))
@@ -131,6 +119,27 @@ def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path
         stochastic=judged.test,
         images=_written(rendering, judged, truth, place, folder),
     )
+
+
+def _truth_of(place: CellPlace, expectation: Expectation, folder: Path) -> tuple[str, Expectation]:
+    """The file with the truth of this cell, which is its own unless it is that of pixels' centres, and what it is."""
+    name = TRUTH_FILE
+    if place.integrator.follows == "light paths":
+        name, expectation = AREA_MEANS_FILE, of_pixel_areas(expectation)
+    elif expectation.camera_rays == CENTRES:
+        return f"cells/{place.scene.name}/{TRUTH_FILE}", expectation
+    write_image(folder / name, expectation.truth.astype(np.float32))
+    return f"{place.folder}/{name}", expectation
+
+
+def _judged_image(rendering: Rendering, place: CellPlace, expectation: Expectation) -> ImageVerdict:
+    """The verdict by the test that the image asks for."""
+    assert rendering.image is not None
+    if place.integrator.follows == "light paths":
+        return judge_light_paths(rendering, expectation)
+    if rendering.batch_means is not None:
+        return judge_noisy(rendering, expectation)
+    return judge_exact(rendering.image, expectation)
 
 
 def _costliest_line(place: CellPlace, expectation: Expectation) -> str:

@@ -16,7 +16,7 @@ from raytruth.scenes.camera import PerspectiveCamera
 from tests.comparisons.departing_tracers import image_of, judged, model_of
 from tests.reference_tracer.small_scenes import library_scene, small_scene
 
-pytestmark = pytest.mark.clause("REN-12", "CAM-3")
+pytestmark = pytest.mark.clause("VER-17", "CAM-3")
 
 # An angle of 2^-10 degrees or within that of 180 is no picture any more.
 ANGLES = st.floats(2.0**-10, 180 - 2.0**-10)

@@ -18,7 +18,7 @@ from tests.reference_tracer.small_scenes import lamp, small_scene
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-pytestmark = pytest.mark.clause("REN-12")
+pytestmark = pytest.mark.clause("VER-17")
 
 ORDERS = st.fixed_dictionaries(
     {"flip_x": st.booleans(), "flip_y": st.booleans(), "handedness": st.sampled_from(["right", "left"])}

@@ -67,7 +67,7 @@ def test_formulas_that_are_known_have_their_names() -> None:
     )
 
 
-@pytest.mark.clause("VER-16", "REN-12")
+@pytest.mark.clause("VER-16", "VER-17")
 def test_conventions_and_departures_are_parts_of_the_error_model() -> None:
     conventions = {"pixel": "bottom right", "pitch": "size less one", "field_of_view": "smaller side", "scale": 255.0}
     declared = model(conventions=conventions, model={"end_of_depth": "local", "constant_weights": [0.25, 0.5]})

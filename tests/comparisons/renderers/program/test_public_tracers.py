@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.records.results import Cell
     from raytruth.scenes.scene import Scene
 
-pytestmark = pytest.mark.clause("REN-8", "REN-12", "VER-16")
+pytestmark = pytest.mark.clause("REN-8", "VER-17", "VER-16")
 
 ROOT = Path(__file__).parents[4]
 COMMAND = [sys.executable, "-m", "tests.comparisons.renderers.program.public_tracers"]
