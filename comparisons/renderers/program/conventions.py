@@ -6,7 +6,7 @@ belongs to, the counting of depth. Where its rays go through other points of the
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from pydantic import Field
 
@@ -16,11 +16,12 @@ from raytruth.comparisons.renderers.program.declared_part import Part
 from raytruth.reference_tracer.camera_rays import CameraRays
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
     from raytruth.scenes.scene import Scene
 
-    Pixels = TypeVar("Pixels", bound=NDArray[Any])
+    Number = TypeVar("Number", bound=np.generic)
 
 Truth = Annotated[bool, Field(strict=True)]
 
@@ -90,7 +91,7 @@ class Conventions(Part):
         """Whether columns are to be reversed: two mirrors are none."""
         return self.flip_x != (self.handedness == "left")
 
-    def undone(self, pixels: Pixels) -> Pixels:
+    def undone(self, pixels: NDArray[Number]) -> NDArray[Number]:
         """The same pixels from the scene's top left, shape (height, width, …)."""
         return pixels[:: -1 if self.flip_y else 1, :: -1 if self.mirrored else 1]
 

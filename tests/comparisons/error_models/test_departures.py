@@ -7,7 +7,9 @@ import pytest
 from raytruth.comparisons.error_models.behaviours import behaviour_of
 from raytruth.comparisons.error_models.departures import NONE, Departures
 from raytruth.comparisons.records.results import Verdict
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
+from raytruth.reference_tracer.rendering import prepare
 from tests.comparisons.departing_tracers import BITS, DEPARTURES, SCENES, image_of, judged, model_of
 
 pytestmark = pytest.mark.clause("VER-16", "VER-14")
@@ -70,6 +72,18 @@ def test_who_shades_beside_the_surface_does_so_where_its_shadow_rays_start_by_wh
     image = image_of(SCENES[scene_name], model, "float64")
     assert (image == image_of(SCENES[scene_name], model_of(departures, "float64", offset), "float64")).mean() > 0.5
     assert judged(image, SCENES[scene_name], model)[0] == Verdict.DECLARED
+
+
+def test_who_is_lit_from_beside_the_surface_sends_shadow_rays_to_the_light_all_the_same() -> None:
+    scene = SCENES["lit"]
+    model = model_of(Departures(lit_from="offset point"), "float64", DEPARTURES["lit from the offset point"][2])
+    behaviour = behaviour_of(model, scene).with_numbers(lambda ball: float(ball.mid()))
+    kernel = prepare(scene, FLOAT, behaviour).kernel
+    point, normal, light = (1.0, 2.0, 0.5), (0.0, 1.0, 0.0), (3.0, 5.0, -1.0)
+    to_light = kernel.subtract(light, kernel.lit_point(0, point, normal))
+    assert to_light != kernel.subtract(light, point)
+    assert kernel.add(point, kernel.from_surface(0, point, normal, to_light, True)) == light
+    assert kernel.from_surface(0, point, normal, to_light, False) == to_light
 
 
 def test_weights_give_back_no_more_than_they_get_and_go_without_another_formula() -> None:
