@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from math import radians, tan
-from typing import get_args
+from math import pi, radians, tan
+from typing import Any, get_args
 
+import numpy as np
 import pytest
+from flint import arb
 from hypothesis import given
 from hypothesis import strategies as st
 
+from raytruth.comparisons.error_models.behaviours import behaviour_of
 from raytruth.comparisons.error_models.departures import NONE
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.handed_cameras import FieldOfView, handed_camera
 from raytruth.comparisons.records.results import Verdict
+from raytruth.reference_tracer.arithmetics.balls import Decisions, rounded_ball_arithmetic
+from raytruth.reference_tracer.rendering import prepare
 from raytruth.scenes.camera import PerspectiveCamera
 from tests.comparisons.departing_tracers import image_of, judged, model_of
 from tests.reference_tracer.small_scenes import library_scene, small_scene
@@ -55,6 +61,31 @@ def test_parallel_rays_have_no_angle() -> None:
     camera = small_scene(width=6, height=4).camera
     for field_of_view in get_args(FieldOfView):
         assert handed_camera(field_of_view, camera) is camera
+
+
+def frame_by_height(angle: float, field_of_view: FieldOfView) -> Any:
+    """One pixel to the right, in balls of float32, of a camera 16 times as wide as it is high."""
+    camera = {"width": 16, "height": 1}
+    scene = small_scene(projection="perspective", extent=angle, **camera)
+    model = ErrorModel("", 24, field_of_view=field_of_view)
+    arithmetic = rounded_ball_arithmetic(24, Decisions())
+    with arithmetic.in_force():
+        prepared = prepare(scene, arithmetic, behaviour_of(model, scene))
+        return prepared.kernel.camera_frame(prepared.data)[2][0]
+
+
+def test_what_rounding_does_is_found_from_the_angle_told() -> None:
+    """Near 180 degrees a tangent magnifies what float32 makes of the angle of the width, more than of the height."""
+    outside = 0
+    for step in range(64):
+        angle = 146.0 + step / 8
+        told = handed_camera("horizontal", camera_of(angle, 16, 1))
+        assert isinstance(told, PerspectiveCamera)
+        half = np.float32(told.vertical_field_of_view) * np.float32(pi) / np.float32(360)
+        pixel = arb(float(np.float32(2) * np.tan(half) / np.float32(16)))
+        assert frame_by_height(angle, "horizontal").contains(pixel)
+        outside += not frame_by_height(angle, "vertical").contains(pixel)
+    assert outside
 
 
 @pytest.mark.parametrize("numbers", ["float64", "float32"])

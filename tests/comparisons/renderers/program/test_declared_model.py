@@ -13,6 +13,7 @@ from raytruth.comparisons.renderers.program.declaration_file import checked_decl
 from raytruth.comparisons.renderers.program.declared_model import JUDGED, error_model_of_declaration
 from raytruth.comparisons.renderers.program.model import Model
 from raytruth.reference_tracer.camera_rays import CameraRays
+from tests.reference_tracer.small_scenes import small_scene
 
 pytestmark = pytest.mark.clause("REN-8")
 
@@ -80,6 +81,18 @@ def test_conventions_and_departures_are_parts_of_the_error_model() -> None:
 def test_every_departure_can_be_declared_by_its_name() -> None:
     assert list(Model.model_fields) == [field.name for field in fields(Departures)]
     assert Model().departures() == Departures()
+
+
+def test_paths_that_end_otherwise_are_judged_where_there_are_any() -> None:
+    mirror = {"white": {"mirror": {"reflectance": (0.5, 0.5, 0.5)}}}
+    departing = Model(end_of_depth="background")
+    assert "could end otherwise" in str(departing.refuses(small_scene(materials=mirror, max_depth=0)))
+    for model_of_scene, scene in (
+        (departing, small_scene(materials=mirror, max_depth=1)),
+        (departing, small_scene(max_depth=0)),
+        (Model(), small_scene(materials=mirror, max_depth=0)),
+    ):
+        assert model_of_scene.refuses(scene) is None
 
 
 def test_who_clamps_the_one_sample_of_a_pixel_writes_clipped_colours() -> None:

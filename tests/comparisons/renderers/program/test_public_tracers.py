@@ -11,6 +11,7 @@ import pytest
 
 from raytruth.comparisons.matrix.plan import PlannedCell
 from raytruth.comparisons.matrix.run import make_truth, run_cells
+from raytruth.comparisons.records.image_files import read_image
 from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
 from raytruth.comparisons.renderers.program.declaration_file import checked_declaration
@@ -66,9 +67,10 @@ def cell_of(name: str, folder: Path, *, mended: bool, **declared: Any) -> Cell:
     folder.mkdir(exist_ok=True)
     scene = room()
     assert renderer.refuses(scene) is None
-    make_truth(scene, folder / "results")
+    place = place_of(scene, renderer, "whitted")
+    make_truth(place.scene, folder / "results")
     ((_, error_model),) = renderer.error_models
-    planned = PlannedCell(place_of(scene, renderer, "whitted"), scene.max_depth, error_model)
+    planned = PlannedCell(place, scene.max_depth, error_model)
     (cell,) = run_cells([planned], folder / "results")
     return cell
 
