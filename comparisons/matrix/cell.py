@@ -21,8 +21,7 @@ from raytruth.comparisons.records.image_files import write_image
 from raytruth.comparisons.records.pixel_evidence import write_pixel_evidence
 from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.records.results import Cell, Images, Verdict
-from raytruth.comparisons.renderers.catalogue import command_of
-from raytruth.comparisons.renderers.protocol import error_model_of
+from raytruth.comparisons.renderers.protocol import command_of, error_model_of
 from raytruth.reference_tracer.camera_rays import CENTRES
 
 if TYPE_CHECKING:

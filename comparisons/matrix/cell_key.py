@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.feasible_sets.kept_feasible_sets import FEASIBLE_SET_ROOMS
-from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
+from raytruth.comparisons.renderers.protocol import GivenRenderer
 from raytruth.reference_tracer.storage.source_digest import ROOT, files_digest, source_digest
 
 if TYPE_CHECKING:
@@ -54,10 +54,10 @@ def cell_key(of_scene: str, renderer: Renderer, integrator: Integrator, version:
 def adapter_digest(renderer: Renderer) -> str:
     """A digest of the file of the renderer's class, and of those in the folders ADAPTERS that it uses.
 
-    Of a user's program it is another when the program or what is declared of it is.
+    Of a renderer that its user gives it is another when that is another.
     """
     code = _digest_with_imports(Path(inspect.getfile(type(renderer))))
-    return f"{code} {renderer.digest}" if isinstance(renderer, ProgramRenderer) else code
+    return f"{code} {renderer.digest}" if isinstance(renderer, GivenRenderer) else code
 
 
 @functools.cache

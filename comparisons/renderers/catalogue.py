@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.renderers.closed_form.adapter import ClosedFormRenderer
@@ -12,7 +11,6 @@ from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_llvm, mitsuba
 from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.comparisons.renderers.povray import PovRay
 from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
-from raytruth.comparisons.renderers.program.finished_image import FinishedImage
 from raytruth.comparisons.renderers.vtk.adapter import Vtk
 from raytruth.scenes.wording import quoted, suggestion
 
@@ -31,13 +29,6 @@ def family_of(renderer: Renderer) -> str | None:
     if isinstance(renderer, ProgramRenderer):
         return renderer.declaration.family or renderer.name
     return _FAMILIES.get(renderer.name, renderer.name)
-
-
-def command_of(renderer: Renderer, source: str) -> str:
-    """What judges a renderer again, on the scene that this names on the command line."""
-    if isinstance(renderer, ProgramRenderer | FinishedImage):
-        return renderer.command(source)
-    return f"raytruth run {shlex.quote(source)} --renderer {renderer.name} --fresh"
 
 
 class UnknownRendererError(Exception):

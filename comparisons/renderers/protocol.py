@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import fnmatch
+import shlex
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -61,6 +62,25 @@ class Renderer(Protocol):
 
     def render(self, scene: Scene, integrator: str, depth: int, rays: Rays, folder: Path) -> Rendering:
         """Render in a process of its own; its files and `log.txt` stay in `folder`. Raises RendererError."""
+
+
+@runtime_checkable
+class GivenRenderer(Renderer, Protocol):
+    """A renderer that raytruth does not know by its name: its user gives it, a program or a finished picture."""
+
+    @property
+    def digest(self) -> str:
+        """Of all that its result depends on besides our code."""
+
+    def command(self, source: str) -> str:
+        """What judges it again, on the scene that this names on the command line."""
+
+
+def command_of(renderer: Renderer, source: str) -> str:
+    """What judges a renderer again, on the scene that this names on the command line."""
+    if isinstance(renderer, GivenRenderer):
+        return renderer.command(source)
+    return f"raytruth run {shlex.quote(source)} --renderer {renderer.name} --fresh"
 
 
 def error_model_of(renderer: Renderer, version: str | None) -> ErrorModel | None:

@@ -115,14 +115,10 @@ def test_mistakes_of_all_programs_are_told_at_once(folder: Path, capsys: pytest.
     (folder / "wrong.toml").write_text('name = "a"\ncommand = ["./tracer", "{scene}", "{output}"]\nx = 1\ny = 2\n')
     options = ("--renderer-command", COMMAND, "--renderer-command", COMMAND, "--renderer-file", "wrong.toml")
     _, _, err = run(capsys, "run", "small.json", *options)
-    assert [line.split(":")[-1] for line in err.splitlines()] == [
-        " the name 'mine' is given twice.",
-        " expected no key 'x' here; known are "
-        + ", ".join(f"'{key}'" for key in sorted(Declaration.model_fields))
-        + ".",
-        err.splitlines()[2].split(":")[-1],
-    ]
-    assert err.splitlines()[2].startswith("wrong.toml: y: ")
+    twice, first, second = err.splitlines()
+    assert twice.endswith(": the name 'mine' is given twice.")
+    assert first.startswith("wrong.toml: x: expected no key 'x' here; known are ")
+    assert second.startswith("wrong.toml: y: expected no key 'y' here; known are ")
 
 
 @pytest.mark.clause("REN-5")

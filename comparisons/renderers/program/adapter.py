@@ -43,7 +43,7 @@ WORK_FOLDER = "program"
 
 @dataclass(frozen=True)
 class ProgramRenderer:
-    """A user's program, obeying the protocol Renderer."""
+    """A user's program, obeying the protocol GivenRenderer."""
 
     declaration: Declaration
     folder: Path

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FinishedImage:
-    """A picture in a file, obeying the protocol Renderer."""
+    """A picture in a file, obeying the protocol GivenRenderer."""
 
     name: str
     path: Path
@@ -46,13 +46,16 @@ class FinishedImage:
         """One, as declared."""
         return (("*", error_model_of_declaration(self.declaration)),)
 
+    @cached_property
+    def digest(self) -> str:
+        """Of the file and of what is declared of it."""
+        digest = hashlib.sha256(self.declaration.model_dump_json().encode())
+        digest.update(self.path.read_bytes() if self.path.is_file() else b"")
+        return digest.hexdigest()[:16]
+
     def version(self) -> str | None:
-        """A digest of the file; None where it cannot be read."""
-        try:
-            with self.path.open("rb") as file:
-                return f"file {hashlib.file_digest(file, 'sha256').hexdigest()[:8]}"
-        except OSError:
-            return None
+        """It has none but its digest."""
+        return f"picture {self.digest[:8]}"
 
     def refuses(self, scene: Scene) -> str | None:
         """Why its conventions cannot be undone; else nothing, since it is there."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 import OpenImageIO
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 Format = Literal["exr", "pfm", "hdr", "ppm", "png"]
 Numbers = Literal["uint8", "uint16", "half", "float"]
+NUMBERS: tuple[Numbers, ...] = get_args(Numbers)
 ModelNumbers = Literal["uint8", "uint16", "float16", "float32", "rgbe"]
 
 FORMATS: dict[Format, tuple[str, dict[Numbers, ModelNumbers]]] = {
@@ -37,8 +38,12 @@ _MANY = 64
 
 def numbers_of(form: Format, stated: Numbers | None) -> ModelNumbers:
     """The numbers of an error model for a format, and for the numbers that are stated of it, if they are."""
-    known = FORMATS[form][1]
-    return known[stated or next(iter(known))]
+    return FORMATS[form][1][stated or usual_numbers(form)]
+
+
+def usual_numbers(form: Format) -> Numbers:
+    """The numbers that a picture of a format holds unless others are declared."""
+    return next(iter(FORMATS[form][1]))
 
 
 def stored_numbers(path: Path) -> Numbers:
@@ -59,10 +64,9 @@ def read_output(path: Path, declared: Declaration, size: tuple[int, int], model:
     source = _opened(path)
     try:
         spec = source.spec()
-        form, usual = FORMATS[declared.writes]
-        if source.format_name() != form:
+        if source.format_name() != FORMATS[declared.writes][0]:
             raise ImageError(f"its {path.name} is {source.format_name()}, but {declared.writes} is declared")
-        numbers = declared.numbers or next(iter(usual))
+        numbers = declared.numbers or usual_numbers(declared.writes)
         found = _checked_numbers(path, spec)
         if found != numbers:
             raise ImageError(f"its {path.name} holds {found} numbers, but {numbers} is declared; declare {found}")
@@ -103,7 +107,7 @@ def _opened(path: Path) -> OpenImageIO.ImageInput:
 def _checked_numbers(path: Path, spec: OpenImageIO.ImageSpec) -> Numbers:
     """Which numbers the file holds; looked at before any pixel is read."""
     kinds = {str(kind) for kind in (spec.channelformats or (spec.format,))}
-    if spec.deep or len(kinds) != 1 or not kinds <= {"uint8", "uint16", "half", "float"}:
+    if spec.deep or len(kinds) != 1 or not kinds <= set(NUMBERS):
         found = "deep pixels" if spec.deep else " and ".join(sorted(kinds))
         raise ImageError(f"its {path.name} holds {found}, expected uint8, uint16, half or float in all channels")
     bits = spec.getattribute("oiio:BitsPerSample")
@@ -114,8 +118,7 @@ def _checked_numbers(path: Path, spec: OpenImageIO.ImageSpec) -> Numbers:
         raise ImageError(f"its {path.name} is cropped: its data window is not its display window")
     if spec.getattribute("Orientation") not in {None, 1}:
         raise ImageError(f"its {path.name} has another orientation than row by row from the top left")
-    kind: Numbers = kinds.pop()  # type: ignore[assignment] - it is one of four, as is checked above
-    return kind
+    return next(known for known in NUMBERS if known in kinds)
 
 
 def _colour_channels(path: Path, spec: OpenImageIO.ImageSpec) -> list[int]:

@@ -17,6 +17,7 @@ from raytruth.comparisons.renderers.program.declaration_file import (
 )
 from raytruth.comparisons.renderers.program.declaration_schema import json_schema
 from raytruth.comparisons.renderers.program.starting_file import starting_text
+from tests.rooms import ROOT
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -222,6 +223,13 @@ def test_the_schema_describes_each_key_and_takes_the_file_to_start_from(tmp_path
     jsonschema.Draft202012Validator(schema).validate(stated)
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.Draft202012Validator(schema).validate(stated | {"writes": "bmp"})
+
+
+@pytest.mark.clause("PRJ-2")
+def test_the_page_on_renderers_tells_each_key() -> None:
+    page = (ROOT / "docs" / "your-renderer.md").read_text(encoding="utf-8")
+    keys = {name for name, _ in described_keys(json_schema())}
+    assert [name for name in sorted(keys) if f"`{name}`" not in page] == []
 
 
 def test_the_placeholders_are_told_where_the_command_is() -> None:
