@@ -168,8 +168,8 @@ class ErrorModel:
         "cramer",
         "plane and inside",
     ] = "watertight"
-    """Which formula decides whether a ray meets a triangle: the truth's own, or one of triangle_tests.py. The second
-    and the third are Embree's."""
+    """Which formula decides whether a ray meets a triangle: the truth's own, one of triangle_tests.py, which are
+    Embree's, or one of triangle_formulas.py."""
     triangle_points: Literal["along the ray", "barycentric"] = "along the ray"
     """How the point is found where a ray meets a triangle: from its distance, or from its corners with the weights of
     the triangle test (hit_points.py)."""

@@ -25,6 +25,7 @@ from raytruth.comparisons.error_models.sphere_formulas import (
     squared_length,
 )
 from raytruth.comparisons.error_models.start_bounds import ULP_STEPS, largest_terms, scale_of
+from raytruth.comparisons.error_models.triangle_formulas import plain_root, triangle_formula_behaviour
 from raytruth.reference_tracer.arithmetics.balls import stored_number
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, Behaviour, merged
 from raytruth.reference_tracer.source.bounding_volume import certainly_less
@@ -39,7 +40,6 @@ from raytruth.reference_tracer.source.scene_data import (
 )
 from raytruth.reference_tracer.source.shadow import shadow_ray_end
 from raytruth.reference_tracer.source.traversal import is_occluded
-from raytruth.reference_tracer.source.triangle import triangle_distance
 from raytruth.reference_tracer.source.vector import add, along, dot, negate, normalize, scale, subtract
 
 if TYPE_CHECKING:
@@ -54,6 +54,8 @@ if TYPE_CHECKING:
 
 sphere_roots: Any = quadratic_roots
 """The formula of sphere_formulas.py that is declared."""
+triangle_root: Any = plain_root
+"""The formula of triangle_formulas.py."""
 as_traced: Any = normalize
 """Or `as_it_is`."""
 
@@ -126,7 +128,7 @@ def ray_policy_behaviour(error_model: ErrorModel, scene: Scene) -> Behaviour:
         },
         "ray policies",
     )
-    return merged(itself, sphere_formula_behaviour(error_model))
+    return merged(itself, sphere_formula_behaviour(error_model), triangle_formula_behaviour(error_model))
 
 
 def _stored(offset: RayOffset, scene: Scene, bits: int) -> dict[str, Any]:
@@ -283,7 +285,7 @@ def distance_to_triangle_by_policy(
     if both // 4 - spheres == triangle and leaves_surface_out[kind] > 0.5:
         return inf
     a, b, c = corners_of(scene, triangle)
-    distance = triangle_distance(origin, direction, a, b, c)
+    distance = triangle_root(origin, direction, a, b, c)
     if distance > least_distance(kind, origin, direction):
         return distance
     return inf

@@ -10,9 +10,8 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.error_models.helpers import edge_slack, pluecker_product
-from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, Behaviour
-from raytruth.reference_tracer.source.bounding_volume import certainly_less
-from raytruth.reference_tracer.source.vector import along, cross, dot, subtract
+from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
+from raytruth.reference_tracer.source.vector import cross, dot, subtract
 
 if TYPE_CHECKING:
     from raytruth.comparisons.error_models.error_model import ErrorModel
@@ -21,17 +20,9 @@ if TYPE_CHECKING:
 
 def triangle_test_behaviour(error_model: ErrorModel) -> Behaviour:
     """What this renderer's test replaces, nothing for the truth's own test; to be merged with HELPERS."""
-    tests = {
-        "moeller-trumbore": moeller_trumbore_distance,
-        "moeller-trumbore of 1997": moeller_trumbore_distance_of_1997,
-        "pluecker": pluecker_distance,
-        "cramer": cramer_distance,
-        "plane and inside": plane_and_inside_distance,
-    }
+    tests = {"moeller-trumbore": moeller_trumbore_distance, "pluecker": pluecker_distance}
     test = tests.get(error_model.triangle_test)
-    if test is None:
-        return IDEAL
-    return Behaviour({"triangle_distance": test}, (beside_triangle,), name="the test of triangles")
+    return Behaviour({} if test is None else {"triangle_distance": test}, name="the test of triangles")
 
 
 def moeller_trumbore_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c: Vector) -> Scalar:
@@ -84,77 +75,3 @@ def pluecker_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c
     if distance > 0.0:
         return distance
     return inf
-
-
-def beside_triangle(u: Scalar, v: Scalar, w: Scalar) -> bool:
-    """Whether weights surely have different signs, so that a ray misses, even if it may be in the triangle's plane."""
-    some_below = certainly_less(u, 0.0) or certainly_less(v, 0.0) or certainly_less(w, 0.0)
-    return some_below and (certainly_less(0.0, u) or certainly_less(0.0, v) or certainly_less(0.0, w))
-
-
-def moeller_trumbore_distance_of_1997(origin: Vector, direction: Vector, a: Vector, b: Vector, c: Vector) -> Scalar:
-    """Möller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997: their steps in their order.
-
-    Weights are compared before they are divided, where balls still know their signs; a quotient with the determinant is
-    rounded up to three times in the program, and so is the determinant here.
-    """
-    first_edge, second_edge = subtract(b, a), subtract(c, a)
-    p = cross(direction, second_edge)
-    determinant = dot(first_edge, p)
-    to_origin = subtract(origin, a)
-    u = dot(to_origin, p)
-    q = cross(to_origin, first_edge)
-    v = dot(direction, q)
-    if beside_triangle(u, v, determinant - u - v) or determinant == 0.0:
-        return inf
-    side = 1.0 if determinant > 0.0 else -1.0
-    if side * u < 0.0 or side * v < 0.0 or side * (u + v) > side * determinant * 1.0 * 1.0 * 1.0:
-        return inf
-    height = dot(second_edge, q)
-    if side * height <= 0.0:
-        return inf
-    return height * (1.0 / determinant)
-
-
-def cramer_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c: Vector) -> Scalar:
-    """Cramer's rule for (a - b)·u + (a - c)·v + d·t = a - o, each determinant by its first column.
-
-    Shirley et al., Fundamentals of Computer Graphics, 3rd ed., section 4.4.2. As above, weights are compared before
-    they are divided.
-    """
-    first_edge, second_edge, to_corner = subtract(a, b), subtract(a, c), subtract(a, origin)
-    across = cross(second_edge, direction)
-    determinant = dot(first_edge, across)
-    u = dot(to_corner, across)
-    v = dot(first_edge, cross(to_corner, direction))
-    if beside_triangle(u, v, determinant - u - v) or determinant == 0.0:
-        return inf
-    side = 1.0 if determinant > 0.0 else -1.0
-    if side * u < 0.0 or side * v < 0.0 or side * (u + v) > side * determinant * 1.0 * 1.0 * 1.0:
-        return inf
-    height = dot(first_edge, cross(second_edge, to_corner))
-    if side * height <= 0.0:
-        return inf
-    return height * (1.0 / determinant)
-
-
-def plane_and_inside_distance(origin: Vector, direction: Vector, a: Vector, b: Vector, c: Vector) -> Scalar:
-    """Where the ray meets the plane, and whether that point is on the inner side of each edge, by vector products.
-
-    Snyder, Barr, "Ray Tracing Complex Models Containing Surface Tessellations", 1987, with the plane as n·p = n·a.
-    """
-    first_edge = subtract(b, a)
-    normal = cross(first_edge, subtract(c, a))
-    determinant = dot(normal, direction)
-    if determinant == 0.0:
-        return inf
-    distance = (dot(normal, a) - dot(normal, origin)) / determinant
-    if distance <= 0.0:
-        return inf
-    point = along(origin, direction, distance)
-    u = dot(normal, cross(first_edge, subtract(point, a)))
-    v = dot(normal, cross(subtract(c, b), subtract(point, b)))
-    w = dot(normal, cross(subtract(a, c), subtract(point, c)))
-    if u < 0.0 or v < 0.0 or w < 0.0:
-        return inf
-    return distance
