@@ -18,6 +18,7 @@ from flint import arb, ctx
 
 from raytruth.reference_tracer.arithmetics.balls import TooManyOutcomesError, ball_arithmetic, every_outcome
 from raytruth.reference_tracer.arithmetics.exact_arithmetic import ExactArithmetic
+from raytruth.reference_tracer.camera_rays import CENTRES
 from raytruth.reference_tracer.rendering import prepare
 from raytruth.reference_tracer.ties import (
     ONE_HAS_NO_BOUND,
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from raytruth.reference_tracer.arithmetics.balls import Decisions
+    from raytruth.reference_tracer.camera_rays import CameraRays
     from raytruth.scenes.scene import Scene
 
 # 64 bits cost as much as 128: the work is Python's, not the numbers'.
@@ -94,12 +96,13 @@ class CertifiedPixel(Enclosure):
 class Certifier:
     """Evaluates the pixels of one scene; keeps a kernel for each precision that was needed."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, camera_rays: CameraRays = CENTRES) -> None:
         self.scene = scene
+        self.camera_rays = camera_rays
         self._evaluators: dict[tuple[int, bool], _Evaluator] = {}
 
     def pixel(self, column: int, row: int, widest: float = math.inf) -> CertifiedPixel:
-        """The colour through the centre of a pixel; more bits are used while its radius is above `widest`."""
+        """The colour of a pixel's ray; more bits are used while its radius is above `widest`."""
         bits, work_left = FEWEST_BITS, MOST_WORK
         while bits <= MOST_BITS:
             try:
@@ -114,13 +117,16 @@ class Certifier:
 
     def _evaluator(self, bits: int, *, exactly: bool = False) -> _Evaluator:
         if (bits, exactly) not in self._evaluators:
-            self._evaluators[bits, exactly] = _Evaluator(self.scene, bits, RaisingDecisions(), exactly=exactly)
+            self._evaluators[bits, exactly] = self._made(bits, RaisingDecisions(), exactly)
         return self._evaluators[bits, exactly]
 
     @functools.cached_property
     def _exploration(self) -> tuple[NotedDecisions, _Evaluator]:
         decisions = NotedDecisions()
-        return decisions, _Evaluator(self.scene, MOST_BITS, decisions, exactly=True)
+        return decisions, self._made(MOST_BITS, decisions, exactly=True)
+
+    def _made(self, bits: int, decisions: Decisions, exactly: bool) -> _Evaluator:
+        return _Evaluator(self.scene, self.camera_rays, bits, decisions, exactly=exactly)
 
     def _worked_out(self, column: int, row: int, bits: int, most_work: int) -> tuple[Enclosure, int]:
         """The pixel with its ties decided by exact values, or NOTHING_KNOWN if they cannot be; and the work of that."""
@@ -176,16 +182,18 @@ def agree(hull: Enclosure, widest: float = math.inf) -> bool:
 class _Evaluator:
     """A scene's kernel at one precision, which is in force while it runs."""
 
-    def __init__(self, scene: Scene, bits: int, decisions: Decisions, *, exactly: bool) -> None:
+    def __init__(
+        self, scene: Scene, camera_rays: CameraRays, bits: int, decisions: Decisions, *, exactly: bool
+    ) -> None:
         self.bits = bits
         with ctx.workprec(bits):
             self.exact = ExactArithmetic(decisions) if exactly else None
             arithmetic = self.exact.arithmetic if self.exact else ball_arithmetic(bits, decisions)
-            self.prepared = prepare(scene, arithmetic)
+            self.prepared = prepare(scene, arithmetic, camera_rays.behaviour())
             self.frame = self.prepared.kernel.camera_frame(self.prepared.data)
 
     def enclosure(self, column: int, row: int, most_work: int = 0) -> Enclosure:
-        """The colour through the centre of a pixel; exact values may take that much work."""
+        """The colour of a pixel's ray; exact values may take that much work."""
         kernel, data = self.prepared.kernel, self.prepared.data
         with ctx.workprec(self.bits):
             if self.exact:  # each pixel has roots of its own, and the camera's among them

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import flint
 import numpy as np
 
+from raytruth.reference_tracer.camera_rays import CENTRES
 from raytruth.reference_tracer.certification import (
     TWO_ROUNDINGS,
     CertifiedPixel,
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from raytruth.reference_tracer.camera_rays import CameraRays
     from raytruth.scenes.scene import Scene
 
 # A second or so of work, so that little is lost when a run is interrupted, and no process is left alone for long.
@@ -79,9 +81,10 @@ class CertifiedImage:
 
 @dataclass(frozen=True, eq=False)
 class _Band:
-    """Rows `first` to `end` - 1 of a scene's image, and the folder where they are kept."""
+    """Rows `first` to `end` - 1 of a scene's image by these rays, and the folder where they are kept."""
 
     scene: Scene
+    camera_rays: CameraRays
     first: int
     end: int
     folder: Path
@@ -92,7 +95,12 @@ class _Band:
 
 
 def certified_image(
-    scene: Scene, *, jobs: int = 1, fresh: bool = False, progress: Callable[[int, int], None] | None = None
+    scene: Scene,
+    camera_rays: CameraRays = CENTRES,
+    *,
+    jobs: int = 1,
+    fresh: bool = False,
+    progress: Callable[[int, int], None] | None = None,
 ) -> CertifiedImage:
     """The certified image of a scene at its own size, made by `jobs` processes, or by this one for 1.
 
@@ -100,7 +108,7 @@ def certified_image(
     The radius of a decided pixel is at most 2^-52 of the image's largest value: pixels that miss that at first are
     evaluated with more bits once that value is known. Ties whose outcomes differ by no more than that decide nothing.
     """
-    bands = _bands(scene)
+    bands = _bands(scene, camera_rays)
     images = {} if fresh else {band: image for band in bands if (image := _read(band)) is not None}
     missing = [band for band in bands if band not in images]
     for band, image in _side_by_side(_certified_band, [(band,) for band in missing], jobs):
@@ -128,18 +136,18 @@ def collect_garbage_rarely() -> None:
     gc.set_threshold(100_000)
 
 
-def truth_key(scene: Scene) -> str:
-    """A digest of all that the certified image of a scene depends on: the scene, our code, and the libraries."""
+def truth_key(scene: Scene, camera_rays: CameraRays = CENTRES) -> str:
+    """A digest of all that a certified image depends on: the scene, the pixels' rays, our code, and the libraries."""
     versions = (flint.__version__, flint.__FLINT_VERSION__, np.__version__)
-    parts = (scene.model_dump_json(), source_digest(*TRUTH_ROOMS), *versions)
+    parts = (scene.model_dump_json(), repr(camera_rays), source_digest(*TRUTH_ROOMS), *versions)
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:16]
 
 
-def _bands(scene: Scene) -> list[_Band]:
-    folder = cache_folder() / "truth" / truth_key(scene)
+def _bands(scene: Scene, camera_rays: CameraRays) -> list[_Band]:
+    folder = cache_folder() / "truth" / truth_key(scene, camera_rays)
     rows = max(1, PIXELS_IN_A_BAND // scene.camera.width)
     height = scene.camera.height
-    return [_Band(scene, first, min(first + rows, height), folder) for first in range(0, height, rows)]
+    return [_Band(scene, camera_rays, first, min(first + rows, height), folder) for first in range(0, height, rows)]
 
 
 Work = tuple[Any, ...]
@@ -164,7 +172,7 @@ def _side_by_side(
 
 
 def _certified_band(band: _Band) -> CertifiedImage:
-    certifier = Certifier(band.scene)
+    certifier = Certifier(band.scene, band.camera_rays)
     width = band.scene.camera.width
     image = CertifiedImage(
         np.empty((band.end - band.first, width, 3)),
@@ -183,7 +191,7 @@ def _refined_band(band: _Band, image: CertifiedImage, widest: float) -> Certifie
     """With more bits where a radius is above `widest`, and with the ties decided that matter less than that."""
     for pixel in _ties_without_consequence(image, widest):
         del image.undecided[pixel]
-    certifier = Certifier(band.scene)
+    certifier = Certifier(band.scene, band.camera_rays)
     for row, column in np.argwhere(_is_wide(image, widest)).tolist():
         _put(image, column, row, certifier.pixel(column, band.first + row, widest))
     _write(band, image)

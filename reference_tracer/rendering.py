@@ -12,6 +12,7 @@ import numpy as np
 
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT64, Arithmetic, make_kernel
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
+from raytruth.reference_tracer.camera_rays import CENTRES
 from raytruth.reference_tracer.tables import build_tables
 from raytruth.scenes.requirements import required_features
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.reference_tracer.arithmetics.kernel import Kernel
+    from raytruth.reference_tracer.camera_rays import CameraRays
     from raytruth.reference_tracer.source.scene_data import SceneData
     from raytruth.scenes.scene import Scene
 
@@ -73,9 +75,9 @@ def first_hits(prepared: PreparedScene) -> tuple[NDArray[Any], NDArray[np.int64]
     return depths, primitives
 
 
-def primary_rays(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Origins and unit directions of the rays through the pixel centres; both of shape (height, width, 3)."""
-    prepared = prepare(scene, FLOAT)
+def primary_rays(scene: Scene, camera_rays: CameraRays = CENTRES) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Origins and unit directions of the pixels' rays, through their centres or others; of shape (height, width, 3)."""
+    prepared = prepare(scene, FLOAT, camera_rays.behaviour())
     frame = prepared.kernel.camera_frame(prepared.data)
     rays = [
         [prepared.kernel.primary_ray(frame, column + 0.5, row + 0.5) for column in range(scene.camera.width)]

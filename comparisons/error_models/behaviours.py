@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.error_models.bounded_offsets import bounded_offset_behaviour
+from raytruth.comparisons.error_models.camera_behaviours import camera_behaviour
+from raytruth.comparisons.error_models.departure_edits import departure_behaviour
 from raytruth.comparisons.error_models.dielectric_formulas import dielectric_behaviour
 from raytruth.comparisons.error_models.helpers import HELPERS
 from raytruth.comparisons.error_models.hit_points import hit_point_behaviour
@@ -38,4 +40,6 @@ def behaviour_of(error_model: ErrorModel, scene: Scene) -> Behaviour:
         sphere_test_behaviour(error_model, scene),
         dielectric_behaviour(error_model),
         rasterisation_behaviour(error_model.rasterisation, scene),
+        camera_behaviour(error_model, scene),
+        departure_behaviour(error_model),
     )

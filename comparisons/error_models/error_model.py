@@ -6,8 +6,11 @@ from dataclasses import dataclass, field, replace
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Literal
 
+from raytruth.comparisons.error_models.departures import NONE, Departures
 from raytruth.comparisons.error_models.formulas import in_code
+from raytruth.comparisons.error_models.handed_cameras import FieldOfView  # noqa: TC001 - a field's type
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.reference_tracer.camera_rays import CENTRES, CameraRays
 from raytruth.scenes.extent import extent_of
 
 if TYPE_CHECKING:
@@ -189,6 +192,12 @@ class ErrorModel:
     unit vector; or that and the point of the sphere that lies in its direction (hit_points.py)."""
     image_radius: float = 0.0
     """A pixel's ray may go through any point within so many pixels of its centre, in x and in y."""
+    camera_rays: CameraRays = CENTRES
+    """Through which point of each pixel its ray goes: the truth that it is held to is that of these rays."""
+    field_of_view: FieldOfView = "vertical"
+    """Which side of the image the angle belongs to that it is told of a camera (handed_cameras.py)."""
+    departures: Departures = NONE
+    """What it computes otherwise than the specification says, on purpose."""
     rasterisation: Rasterisation | None = None
     """How triangles are drawn; None where rays are traced."""
     output: OutputModel = field(default_factory=OutputModel)
@@ -294,6 +303,8 @@ class ErrorModel:
             "summary": self.description,
             "arithmetic": f"one operation errs by at most 2^-{self.precision_bits} of its result",
             "camera rays go": around if self.image_radius > 0.0 else "through the centres of pixels",
+            "what counts as centres": self.camera_rays.in_words(),
+            "fields of view are": f"{self.field_of_view}, as they are told to it",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
             "triangles": in_code("triangle_test", self.triangle_test),
             "points on triangles": in_code("triangle_points", self.triangle_points),
@@ -313,4 +324,5 @@ class ErrorModel:
             "smallest numbers": f"colours may be off by {self.smallest:.3g}" if self.smallest > 0.0 else "are kept",
             "output": self.output.in_words(),
             "random numbers": self.random_choices or "none",
+            "departures from the specification": self.departures.in_words(),
         }

@@ -30,6 +30,8 @@ DARKEST_RGBE = 1e-32
 FLOAT32_ROUNDOFF = 2.0**-24
 # To float32, times the largest code, plus a half.
 LINEAR_ROUNDOFFS = 3
+# To store a scale, to multiply with it, and to divide by it.
+SCALE_ROUNDOFFS = 3
 # The encoding 1.055·x^(1/2.4) - 0.055, in roundoffs for x from 0.0031308 to 1: x itself 1/2.4; the exponent |ln x|/2.4,
 # up to 2.4; the power function 4 (two units in the last place); its factor and the product 2; the subtraction magnifies
 # these by up to 2.4, and adds the constant's 1.4 and 1; the three of above. That is 27, rounded up to a power of two.
@@ -52,6 +54,9 @@ class OutputModel:
     bracketed: bool = False
     """Whether the picture is written at the exposures 1, 1/2, 1/4, …, and each value read from the brightest one in
     which its code is not the largest. Only of linear integers."""
+    scale: float = 1.0
+    """What is written is so many times the radiance, as by an exposure, or by who writes 0 to 255 as floats; undone by
+    who reads it."""
     color_error: float = 0.0
     """How far a colour may be off before all this, by arithmetic that is coarser than that of the rays: in units of
     the colour or, if it is under 1, of 1, from which it may be the difference."""
@@ -61,6 +66,8 @@ class OutputModel:
             raise ValueError("integers hold nothing outside [0, 1], so their output is clipped or bracketed")
         if self.bracketed and (self.clipped or self.numbers not in LARGEST_CODES or self.transfer != "linear"):
             raise ValueError("only linear integers are bracketed, and then they are not clipped")
+        if not 0.0 < self.scale < np.inf:
+            raise ValueError("a scale of what is written is finite and above 0")
         if self.numbers == "rgbe" and self.transfer != "linear":
             raise ValueError("colours with one exponent are linear")
 
@@ -76,9 +83,9 @@ class OutputModel:
         return self._end_read(ends[0], -1), self._end_read(ends[1], 1)
 
     def linear_values(self, written: ArrayLike) -> Array:
-        """The linear values that a file's codes or numbers stand for; the largest code of integers is 1."""
+        """The radiances that a file's codes or numbers stand for; the largest code of integers is 1, over the scale."""
         values = np.asarray(written, np.float64) / LARGEST_CODES.get(self.numbers, 1)
-        return srgb_decoded(values) if self.transfer == "sRGB" else values
+        return (srgb_decoded(values) if self.transfer == "sRGB" else values) / self.scale
 
     def in_words(self) -> str:
         """The output as a clause for people, as in `raytruth renderers`."""
@@ -87,14 +94,16 @@ class OutputModel:
             clipping = "at the brightest of the exposures 1, 1/2, 1/4, … that does not clip"
         rounding = "rounded to the nearest" if self.rounding == "nearest" else "truncated"
         colors = f", of colours computed within {self.color_error:.3g}" if self.color_error > 0.0 else ""
-        return f"{self.numbers}, {self.transfer}, {rounding}, {clipping}{colors}"
+        scaled = f", of {self.scale:.4g} times the radiance" if self.scale != 1.0 else ""
+        return f"{self.numbers}, {self.transfer}, {rounding}, {clipping}{scaled}{colors}"
 
     def _encoded(self, radiance: Array, side: int) -> Array:
         """The lowest or highest number that this radiance may become before it is rounded."""
         computed = (
             radiance + side * self.color_error * np.maximum(np.abs(radiance), 1.0) if self.color_error else radiance
         )
-        clipped = np.clip(computed, 0.0, 1.0) if self.clipped else computed
+        scaled = computed * (self.scale * (1.0 + side * self._scale_slack() * np.sign(computed)))
+        clipped = np.clip(scaled, 0.0, 1.0) if self.clipped else scaled
         return srgb_encoded(clipped) if self.transfer == "sRGB" else clipped
 
     def _shared_exponent(self, low: Array, high: Array) -> tuple[Array, Array]:
@@ -105,7 +114,7 @@ class OutputModel:
         low, high = self._encoded(low, -1) * (1 - self._slack()), self._encoded(high, 1) * (1 + self._slack())
         brightest = np.maximum(high.max(axis=-1, keepdims=True), DARKEST_RGBE)
         code = np.maximum(np.ldexp(1.0, np.frexp(brightest)[1] - 8), DARKEST_RGBE)
-        return np.maximum(low - code, 0.0), high + code
+        return np.maximum(low - code, 0.0) / self.scale, (high + code) / self.scale
 
     def _end_read(self, radiance: Array, side: int) -> Array:
         """The lowest (side -1) or highest (side 1) value that may be read for this radiance."""
@@ -147,6 +156,10 @@ class OutputModel:
         has_neighbour = np.isfinite(value) & np.isfinite(neighbour)
         halfway = 0.5 * np.where(has_neighbour, value, 0.0) + 0.5 * np.where(has_neighbour, neighbour, 0.0)
         return np.where(has_neighbour, halfway, value)
+
+    def _scale_slack(self) -> float:
+        """How far scale, product and quotient may be off: a rounding of float32 each, none for a power of two."""
+        return 0.0 if np.frexp(self.scale)[0] == 0.5 else SCALE_ROUNDOFFS * FLOAT32_ROUNDOFF
 
     def _slack(self) -> float:
         """How far a renderer's own rounding may move a number before it is written, relatively."""

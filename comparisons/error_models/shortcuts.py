@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from raytruth.comparisons.error_models.departures import NONE
 from raytruth.comparisons.error_models.error_model import RayOffset
 from raytruth.scenes.extent import largest_coordinate
 from raytruth.scenes.planes import has_planes
@@ -36,6 +37,11 @@ def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
     )
 
 
+def without_departures(error_model: ErrorModel) -> ErrorModel:
+    """The error model of a renderer that computes what the specification says."""
+    return replace(error_model, departures=NONE)
+
+
 def has_shortcuts(error_model: ErrorModel) -> bool:
     """Whether it declares any: a ray offset, a least distance, shadow rays that end early or overlook what is near, a
     farthest distance.
@@ -46,7 +52,7 @@ def has_shortcuts(error_model: ErrorModel) -> bool:
 
 
 def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
-    """How large the shortcuts are in a scene, beside its smallest shape; a clause without an end."""
+    """How large the shortcuts are in a scene, beside its smallest shape, and which departures there are; a clause."""
     offsets, scale = error_model.offsets(), largest_coordinate(scene)
     lengths = {
         "ray offset": max(_longest_offset(offset, scale, error_model.precision_bits) for offset in offsets),
@@ -63,6 +69,8 @@ def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
         told.append(f"its shadow rays end {error_model.shadow_shortening:.2g} of the distance before the light")
     if isfinite(error_model.farthest) and has_planes(scene):
         told.append(f"it may miss what is farther than {error_model.farthest:.2g}, and planes are infinite")
+    if error_model.departures != NONE:
+        told.append(f"its departures from the specification: {error_model.departures.in_words()}")
     return ", ".join(told)
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.faults.edits import Edit
 from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.arithmetics.edits import Edit
 
 if TYPE_CHECKING:
     from raytruth.reference_tracer.source.numbers import Scalar

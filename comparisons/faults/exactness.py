@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.faults.edits import Edit, at_the_start
 from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.arithmetics.edits import Edit, at_the_start
 from raytruth.reference_tracer.source.traversal import is_occluded
 from raytruth.reference_tracer.source.vector import along, scale
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from raytruth.comparisons.error_models.error_model import ErrorModel
-from raytruth.comparisons.faults.edits import Edit, Function, edited
+from raytruth.reference_tracer.arithmetics.edits import Edit, Function, edited
 
 if TYPE_CHECKING:
     from types import ModuleType

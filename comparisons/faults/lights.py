@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from raytruth.comparisons.faults.edits import Edit
 from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.arithmetics.edits import Edit
 
 
 @fault(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.faults.edits import Edit
 from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.arithmetics.edits import Edit
 from raytruth.reference_tracer.source.vector import along, dot, negate, normalize, subtract
 
 if TYPE_CHECKING:

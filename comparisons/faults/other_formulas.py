@@ -28,7 +28,7 @@ from raytruth.reference_tracer.source.vector import add, along, cross, dot, nega
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from raytruth.comparisons.faults.edits import Edit, Function
+    from raytruth.reference_tracer.arithmetics.edits import Edit, Function
     from raytruth.reference_tracer.source.camera import Frame
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData

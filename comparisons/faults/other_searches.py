@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from raytruth.comparisons.faults.edits import Edit
 from raytruth.comparisons.faults.other_formulas import variant
+from raytruth.reference_tracer.arithmetics.edits import Edit
 
 
 @variant(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.faults.edits import Edit, at_the_start
 from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.arithmetics.edits import Edit, at_the_start
 from raytruth.reference_tracer.source.vector import along, normalize, scale
 
 if TYPE_CHECKING:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.faults.edits import Edit, after
 from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.arithmetics.edits import Edit, after
 from raytruth.reference_tracer.source.features import DIRECTIONAL_LIGHTS, POINT_LIGHTS
 from raytruth.reference_tracer.source.scene_data import (
     AMBIENT_LIGHT,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.faults.edits import Edit, before
 from raytruth.comparisons.faults.fault import fault
 from raytruth.comparisons.faults.other_formulas import MOELLER_TRUMBORE
+from raytruth.reference_tracer.arithmetics.edits import Edit, before
 from raytruth.reference_tracer.source.features import PLANES, SPHERES, TRIANGLES
 from raytruth.reference_tracer.source.scene_data import (
     PLANE_MATERIAL,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from raytruth.comparisons.faults.edits import Edit, after, before
 from raytruth.comparisons.faults.fault import fault
+from raytruth.reference_tracer.arithmetics.edits import Edit, after, before
 
 
 @fault(

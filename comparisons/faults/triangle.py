@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.faults.edits import Edit
 from raytruth.comparisons.faults.fault import fault
 from raytruth.comparisons.faults.other_formulas import MOELLER_TRUMBORE
+from raytruth.reference_tracer.arithmetics.edits import Edit
 from raytruth.reference_tracer.source.vector import cross, normalize, subtract
 
 if TYPE_CHECKING:

@@ -21,7 +21,7 @@ from raytruth.reference_tracer.arithmetics.textbook_forms import VARIANTS
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from raytruth.comparisons.faults.edits import Function
+    from raytruth.reference_tracer.arithmetics.edits import Function
 
 # Of float32's 24 bits two, for exponentials, tangents and powers from the mathematical library.
 FLOAT32_MODEL = ErrorModel("float32 with 2 bits for the mathematical library", precision_bits=22)

@@ -10,7 +10,7 @@ import numpy as np
 from raytruth.comparisons.measures.visibility import differs_visibly
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from raytruth.comparisons.feasible_sets.feasible_pixel import FirstHit
     from raytruth.comparisons.feasible_sets.pixel_outcomes import Colors, Pixel
@@ -37,12 +37,12 @@ def all_due(color: Colors | None) -> Outcomes:
     return Outcomes(boxes, [True] * len(boxes), color is not None and color.merged)
 
 
-def may_look_different(color: Colors, pixel: Pixel, truth: CertifiedImage | None) -> bool:
-    """Whether some declared outcome may visibly differ from the truth; true where that is not known, or a tie."""
+def may_look_different(boxes: Sequence[Bounds], pixel: Pixel, truth: CertifiedImage | None) -> bool:
+    """Whether one of these outcomes may visibly differ from the truth; true where that is not known, or a tie."""
     column, row = pixel
     if truth is None or not truth.decided[row, column]:
         return True
-    ends = np.array([bounds_of(box) for box in color.boxes])  # shape (outcomes, 3, 2)
+    ends = np.array(boxes)  # shape (outcomes, 3, 2)
     return bool(differs_visibly(ends, truth.middle[row, column][np.newaxis, :, np.newaxis]).any())
 
 
@@ -86,6 +86,18 @@ def beside_what_is_due(declared: Outcomes, due: Outcomes) -> Outcomes:
     return Outcomes([*due.boxes, *others], is_due, due.merged or declared.merged)
 
 
+def due_as_far_as(due: Outcomes, outcomes: Outcomes) -> Outcomes:
+    """The outcomes of a renderer that departs from the specification: what they have in common with what is due is due.
+
+    Of an outcome that is due in part, that part comes first, as a box of its own.
+    """
+    whole = [any(_is_in(box, other) for other in due.boxes) for box in outcomes.boxes]
+    partly = [box for box, is_due in zip(outcomes.boxes, whole, strict=True) if not is_due]
+    common = [_common(box, other) for box in partly for other in due.boxes]
+    parts = [part for part in common if all(low <= high for low, high in part)]
+    return Outcomes([*parts, *outcomes.boxes], [True] * len(parts) + whole, outcomes.merged)
+
+
 def hits_beside_what_is_due(declared: list[FirstHit] | None, due: list[FirstHit] | None) -> DueHits:
     """All first hits of a pixel: those due, then declared ones of other primitives; none where either is unknown."""
     if declared is None or due is None:
@@ -106,6 +118,10 @@ def _widened(middle: float, radius: float) -> tuple[float, float]:
 
 def _hull(box: Bounds, other: Bounds) -> Bounds:
     return [(min(a, low), max(b, high)) for (a, b), (low, high) in zip(box, other, strict=True)]
+
+
+def _common(box: Bounds, other: Bounds) -> Bounds:
+    return [(max(a, low), min(b, high)) for (a, b), (low, high) in zip(box, other, strict=True)]
 
 
 def _is_in(box: Bounds, other: Bounds) -> bool:

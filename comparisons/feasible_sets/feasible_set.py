@@ -14,13 +14,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from flint import arb
 
+from raytruth.comparisons.error_models.departures import NONE
 from raytruth.comparisons.error_models.output_model import OutputModel
-from raytruth.comparisons.error_models.shortcuts import has_shortcuts, without_shortcuts
+from raytruth.comparisons.error_models.shortcuts import has_shortcuts, without_departures, without_shortcuts
 from raytruth.comparisons.feasible_sets.declared_outcomes import (
     Outcomes,
     all_due,
     beside_what_is_due,
     bounds_of,
+    due_as_far_as,
     hits_beside_what_is_due,
     may_look_different,
     proven,
@@ -75,8 +77,8 @@ class FeasibleSet:
     def hull(self, *, due_only: bool = False) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The least box that holds all outcomes of a pixel: low and high ends, shape (height, width, 3) each.
 
-        With `due_only`, all outcomes that are due; every pixel with an outcome has one of these. NaN where there are
-        none.
+        With `due_only`, all outcomes that are due; every pixel with an outcome has one of these, unless the renderer
+        departs from the specification. NaN where there are none.
         """
         counted = self.due[..., np.newaxis] if due_only else True
         with warnings.catch_warnings():
@@ -103,9 +105,10 @@ def feasible_set(
     """The feasible sets of all pixels of a scene; `behaviour` is what the renderer does besides its error model.
 
     They hold what the declared model may give, and what its arithmetic alone may give without the shortcuts that it
-    declares: that is due. With `truth`, the scene's certified image, they hold the truth, and what is due is found only
-    where a declared outcome may look different from the truth, which is much quicker. Elsewhere all that is declared
-    counts as due.
+    declares: that is due. Of a renderer that departs from the specification they hold what it may give as declared and
+    nothing else, not even the truth; of that is due what the specification may give, too. With `truth`, the certified
+    image by the same rays, all other sets hold the truth, and what is due is found only where a declared outcome may
+    look different from the truth, which is much quicker. Elsewhere all that is declared counts as due.
     Without colours only the feasible sets of first hits are made, and no pixel has an outcome.
     Raises ValueError for a behaviour that changes what the error model changes, too.
     """
@@ -115,15 +118,20 @@ def feasible_set(
     colors, hits = declared.colors_and_hits(pixels, with_colors=with_colors)
     outcomes = [all_due(color) for color in colors]
     first_hits: list[DueHits] = [[(hit, True) for hit in of_pixel or ()] for of_pixel in hits]
-    if has_shortcuts(error_model):
-        ideal = PixelOutcomes(scene, without_shortcuts(error_model), behaviour, bound)
-        places = [i for i, color in enumerate(colors) if color and may_look_different(color, pixels[i], truth)]
+    departs = error_model.departures != NONE
+    if departs or has_shortcuts(error_model):
+        ideal = PixelOutcomes(scene, without_departures(without_shortcuts(error_model)), behaviour, bound)
+        places = [i for i, of in enumerate(outcomes) if of.boxes and may_look_different(of.boxes, pixels[i], truth)]
         for place, due in _due_outcomes(ideal, pixels, colors, places, truth).items():
-            outcomes[place] = beside_what_is_due(outcomes[place], due)
+            if departs:
+                outcomes[place] = due_as_far_as(with_truth(due, pixels[place], truth), outcomes[place])
+            else:
+                outcomes[place] = beside_what_is_due(outcomes[place], due)
         if error_model.ray_offset.ignores_near_hits:  # the one shortcut that camera rays take
             _, due_hits = ideal.colors_and_hits(pixels, with_colors=False)
             first_hits = [hits_beside_what_is_due(*both) for both in zip(hits, due_hits, strict=True)]
-    outcomes = [with_truth(of_pixel, pixel, truth) for of_pixel, pixel in zip(outcomes, pixels, strict=True)]
+    if not departs:
+        outcomes = [with_truth(of_pixel, pixel, truth) for of_pixel, pixel in zip(outcomes, pixels, strict=True)]
     return _as_arrays(scene, error_model, outcomes, first_hits)
 
 

@@ -46,7 +46,7 @@ def kept_feasible_set(scene: Scene, error_model: ErrorModel, *, with_colors: boo
     path = cache_folder() / "feasible" / f"{_digest(scene.name, repr(error_model), str(with_colors))}.npz"
     kept = _read(path, key)
     if kept is None:
-        truth = certified_image(scene) if with_colors else None
+        truth = certified_image(scene, error_model.camera_rays) if with_colors else None
         kept = feasible_set(scene, error_model, truth=truth, with_colors=with_colors)
         _write(path, key, kept)
     return kept

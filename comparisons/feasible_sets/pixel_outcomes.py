@@ -45,13 +45,18 @@ class Colors:
 
 
 class PixelOutcomes:
-    """Finds the outcomes of a scene's pixels under one error model."""
+    """Finds the outcomes of a scene's pixels under one error model; `share` is their part of an image's work."""
 
     def __init__(
-        self, scene: Scene, error_model: ErrorModel, behaviour: Behaviour, bound: RadianceBound | None
+        self,
+        scene: Scene,
+        error_model: ErrorModel,
+        behaviour: Behaviour,
+        bound: RadianceBound | None,
+        share: float = 1.0,
     ) -> None:
         self._model, self._model_of_light = error_model, error_model.of_light()
-        self._linked_work = LINKED_WORK * scene.camera.width * scene.camera.height
+        self._linked_work = int(LINKED_WORK * scene.camera.width * scene.camera.height * share)
         # Made only where they are needed; often the error model is that of light, too.
         self._plain = cache(
             lambda model: PixelEvaluator(PlainRays(scene, model, behaviour), bound, FLOAT32_BITS, PLAIN_WORK)

@@ -18,4 +18,5 @@ if TYPE_CHECKING:
 def kept_expectation(scene: Scene, error_model: ErrorModel, *, with_colors: bool = True) -> Expectation:
     """Truth and feasible set from the cache, or made now; without colours where only first hits are judged."""
     feasible = kept_feasible_set(scene, error_model, with_colors=with_colors)
-    return expectation_of(scene, judged_truth(scene), feasible, shortcuts_in_words(error_model, scene))
+    rays = error_model.camera_rays
+    return expectation_of(scene, judged_truth(scene, rays), feasible, shortcuts_in_words(error_model, scene), rays)

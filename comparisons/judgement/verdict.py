@@ -20,6 +20,7 @@ from raytruth.comparisons.noise.splat_bound import largest_splats
 from raytruth.comparisons.records.pixel_evidence import PixelEvidence, pixel_evidence
 from raytruth.comparisons.records.renderings import Rays
 from raytruth.comparisons.records.results import Judgement, StochasticTest, Verdict
+from raytruth.reference_tracer.camera_rays import CENTRES
 from raytruth.reference_tracer.rendering import primary_rays
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
     from raytruth.comparisons.feasible_sets.radiance_bound import RadianceBound
     from raytruth.comparisons.records.renderings import Image, Rendering
+    from raytruth.reference_tracer.camera_rays import CameraRays
     from raytruth.scenes.scene import Scene
 
 
@@ -39,17 +41,29 @@ class Expectation:
     truth: NDArray[np.float64]
     """The true colour of each pixel, shape (height, width, 3)."""
     rays: Rays
-    """The ray through the centre of each pixel."""
+    """The ray of each pixel, through its centre unless the error model says otherwise."""
     feasible: FeasibleSet
     bound: RadianceBound | None
     """The largest radiance that any ray can bring back. None where none is known: random samples cannot be judged."""
     shortcuts: str = ""
     """How large the shortcuts of the error model are in this scene, in words; empty where there are none."""
+    camera_rays: CameraRays = CENTRES
+    """Through which point of each pixel its ray goes."""
 
 
-def expectation_of(scene: Scene, truth: NDArray[np.float64], feasible: FeasibleSet, shortcuts: str = "") -> Expectation:
-    """What is expected of images of a scene, from its truth, shape (height, width, 3), and its feasible set."""
-    return Expectation(scene, truth, Rays(*primary_rays(scene)), feasible, radiance_bound(scene), shortcuts)
+def expectation_of(
+    scene: Scene,
+    truth: NDArray[np.float64],
+    feasible: FeasibleSet,
+    shortcuts: str = "",
+    camera_rays: CameraRays = CENTRES,
+) -> Expectation:
+    """What is expected of images of a scene, from its truth, shape (height, width, 3), and its feasible set.
+
+    Both are of these rays of the pixels.
+    """
+    rays = Rays(*primary_rays(scene, camera_rays))
+    return Expectation(scene, truth, rays, feasible, radiance_bound(scene), shortcuts, camera_rays)
 
 
 @dataclass(frozen=True)
@@ -116,10 +130,12 @@ def _is_not_due(rendering: Rendering, feasible: FeasibleSet, most: float) -> NDA
 
     A shortcut's outcomes are no part of what is due. Bonferroni's correction counts all pixels and channels.
     """
-    low, high = (np.clip(np.nan_to_num(end), 0.0, most) / most for end in feasible.hull(due_only=True))
+    low, high = feasible.hull(due_only=True)
+    nothing_due = np.isnan(low).any(axis=2)
+    low, high = (np.clip(np.nan_to_num(end), 0.0, most) / most for end in (low, high))
     mean = np.clip(np.asarray(rendering.image, dtype=np.float64) / most, 0.0, 1.0)
     p_values = mean_p_values(mean, low, high, np.array(rendering.samples)) * mean.size
-    return np.asarray((p_values < SIGNIFICANCE).any(axis=2))
+    return np.asarray((p_values < SIGNIFICANCE).any(axis=2) | nothing_due)
 
 
 def of_pixel_areas(expectation: Expectation) -> Expectation:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from raytruth.comparisons.feasible_sets.costly_lines import costliest_line
 from raytruth.comparisons.judgement.exact_test import largest_error
 from raytruth.comparisons.judgement.first_hit_test import judge_first_hits, verdict_of_first_hits
 from raytruth.comparisons.judgement.pixel_verdict import together, with_shortcuts
@@ -21,6 +22,7 @@ from raytruth.comparisons.records.pixel_evidence import write_pixel_evidence
 from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.records.results import Cell, Images, Verdict
 from raytruth.comparisons.renderers.protocol import command_of, error_model_of
+from raytruth.reference_tracer.camera_rays import CENTRES
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -99,20 +101,14 @@ def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path
         assert hits is not None, "checked with the sizes"
         verdict, reason = with_shortcuts(*verdict_of_first_hits(hits), expectation.shortcuts)
         return Cell(**told, verdict=verdict, reason=reason)
-    truth = f"cells/{place.scene.name}/{TRUTH_FILE}"
-    if place.integrator.follows == "light paths":
-        expectation = of_pixel_areas(expectation)
-        truth = f"{place.folder}/{AREA_MEANS_FILE}"
-        write_image(folder / AREA_MEANS_FILE, expectation.truth.astype(np.float32))
-        judged = judge_light_paths(rendering, expectation)
-    elif rendering.batch_means is not None:
-        judged = judge_noisy(rendering, expectation)
-    else:
-        judged = judge_exact(rendering.image, expectation)
+    truth, expectation = _truth_of(place, expectation, folder)
+    judged = _judged_image(rendering, place, expectation)
     verdict, reason = judged.verdict, judged.reason
     if hits is not None:
         verdict, reason = together((verdict, reason), verdict_of_first_hits(hits))
     verdict, reason = with_shortcuts(verdict, reason, expectation.shortcuts)
+    if verdict == Verdict.INCOMPARABLE:
+        reason = "; ".join(filter(None, [reason, _costliest_line(place, expectation)]))
     return Cell(
         **told,
         verdict=verdict,
@@ -122,6 +118,37 @@ def _judged(place: CellPlace, depth: int, expectation: Expectation, folder: Path
         stochastic=judged.test,
         images=_written(rendering, judged, truth, place, folder),
     )
+
+
+def _truth_of(place: CellPlace, expectation: Expectation, folder: Path) -> tuple[str, Expectation]:
+    """The file with the truth of this cell, which is its own unless it is that of pixels' centres, and what it is."""
+    name = TRUTH_FILE
+    if place.integrator.follows == "light paths":
+        name, expectation = AREA_MEANS_FILE, of_pixel_areas(expectation)
+    elif expectation.camera_rays == CENTRES:
+        return f"cells/{place.scene.name}/{TRUTH_FILE}", expectation
+    write_image(folder / name, expectation.truth.astype(np.float32))
+    return f"{place.folder}/{name}", expectation
+
+
+def _judged_image(rendering: Rendering, place: CellPlace, expectation: Expectation) -> ImageVerdict:
+    """The verdict by the test that the image asks for."""
+    assert rendering.image is not None
+    if place.integrator.follows == "light paths":
+        return judge_light_paths(rendering, expectation)
+    if rendering.batch_means is not None:
+        return judge_noisy(rendering, expectation)
+    return judge_exact(rendering.image, expectation)
+
+
+def _costliest_line(place: CellPlace, expectation: Expectation) -> str:
+    """Which line of what the renderer declares keeps most pixels from being judged, in words; nothing if none does."""
+    error_model = error_model_of(place.renderer, place.version)
+    unjudged = np.argwhere(expectation.feasible.outcomes == 0)
+    if error_model is None or not len(unjudged):
+        return ""
+    pixels = [(column, row) for row, column in unjudged.tolist()]
+    return costliest_line(place.scene, error_model.in_scene(place.scene), pixels)
 
 
 def _displaced(place: CellPlace) -> str | None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.faults.edits import Edit, edited
 from raytruth.comparisons.faults.fault import Subject, words_of
+from raytruth.reference_tracer.arithmetics.edits import Edit, edited
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -20,7 +20,7 @@ from raytruth.comparisons.records.renderings import FirstHits, RendererError, Re
 from raytruth.comparisons.renderers.program.command import filled_command, named_files
 from raytruth.comparisons.renderers.program.declared_model import error_model_of_declaration, output_model_of
 from raytruth.comparisons.renderers.program.first_hit_files import FIRST_HITS_FILE, read_first_hits
-from raytruth.comparisons.renderers.program.output_images import read_output, unflipped
+from raytruth.comparisons.renderers.program.output_images import read_output
 from raytruth.comparisons.renderers.protocol import Integrator
 from raytruth.scenes.exporters.formats import FORMATS
 from raytruth.scenes.light_paths import WHITTED
@@ -106,7 +106,9 @@ class ProgramRenderer:
         refused = sorted(required & set(self.declaration.scenes.refuses))
         if refused:
             return f"{self.name} is declared to refuse what the scene requires: {', '.join(refused)}"
-        return FORMATS[self.declaration.reads].refuses(scene)
+        conventions, samples = self.declaration.conventions, self.declaration.sampling.samples
+        by_declaration = conventions.refuses(scene, samples) or self.declaration.model.refuses(scene)
+        return by_declaration or FORMATS[self.declaration.reads].refuses(conventions.handed(scene))
 
     def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature
         """On all scenes, if it draws samples."""
@@ -120,7 +122,8 @@ class ProgramRenderer:
         work = folder / WORK_FOLDER
         work.mkdir()
         try:
-            return self._rendering(scene.model_copy(update={"max_depth": depth}), work)
+            handed = self.declaration.conventions.handed(scene.model_copy(update={"max_depth": depth}))
+            return self._rendering(handed, work)
         except OSError as error:
             raise RendererError(f"its folder is not as it was made: {error.strerror}") from error
         finally:
@@ -177,7 +180,7 @@ class ProgramRenderer:
         if not self.declaration.uses("first_hits"):
             return None
         hits = read_first_hits(work / FIRST_HITS_FILE, (scene.camera.height, scene.camera.width))
-        return FirstHits(**{name: unflipped(values, self.declaration) for name, values in vars(hits).items()})
+        return FirstHits(**{name: self.declaration.conventions.undone(values) for name, values in vars(hits).items()})
 
     def _run(self, command: tuple[str, ...], work: Path, seconds: float, values: dict[str, object]) -> None:
         declared = self.declaration

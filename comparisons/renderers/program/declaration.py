@@ -5,8 +5,11 @@ from __future__ import annotations
 import re
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, Field
 
+from raytruth.comparisons.renderers.program.conventions import Conventions
+from raytruth.comparisons.renderers.program.declared_part import Part
+from raytruth.comparisons.renderers.program.model import Model
 from raytruth.scenes.features import Feature
 from raytruth.scenes.values import NonNegative
 from raytruth.scenes.wording import quoted, suggestion
@@ -67,12 +70,6 @@ FeatureName = Annotated[
 ]
 Truth = Annotated[bool, Field(strict=True)]
 Fraction = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, lt=1)]
-
-
-class Part(BaseModel):
-    """A part of a declaration: immutable, and without keys that it does not know."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class Limits(Part):
@@ -212,24 +209,6 @@ class Formulas(Part):
     directions: Literal["normalised", "unnormalised"] = Field(
         "normalised", description="Whether rays have unit directions."
     )
-
-
-class Conventions(Part):
-    """How the program's picture lies; undone before it is judged."""
-
-    flip_x: Truth = Field(False, description="The first column of the file is the rightmost.")
-    flip_y: Truth = Field(False, description="The first row of the file is the lowest, other than its format says.")
-    pixel: Literal["centre", "corner"] = Field("centre", description="Where in its pixel a camera's ray goes through.")
-    handedness: Literal["right", "left"] = Field("right", description="Of the axes that the program has.")
-
-
-class Model(Part):
-    """Where the program departs from the specification on purpose."""
-
-    end_of_depth: Literal["black", "background", "local"] = Field(
-        "black", description="What a ray brings back that the depth leaves no room for."
-    )
-    fresnel: Literal["exact", "schlick"] = Field("exact", description="By which law dielectrics split light.")
 
 
 class Declaration(Part):

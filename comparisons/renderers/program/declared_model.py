@@ -26,6 +26,9 @@ PRECISIONS = {"float64": 53, "float32": 24}
 FEWEST_BITS = 8
 """As the key `bits` has it: with fewer nearly everything is left open."""
 
+# An angle is converted with some eight roundings of float64, which is 2^-50 of it.
+MOST_BITS_OF_ANGLES = 49
+
 TRIANGLE_TESTS: dict[str, Literal["watertight", "moeller-trumbore", "pluecker"]] = {
     "watertight": "watertight",
     "moeller-trumbore": "moeller-trumbore",
@@ -44,10 +47,6 @@ JUDGED: dict[Location, tuple[Any, ...]] = {
     ("formulas", "fresnel"): ("accurate",),
     ("formulas", "refraction"): ("accurate",),
     ("formulas", "directions"): ("normalised",),
-    ("conventions", "pixel"): ("centre",),
-    ("conventions", "handedness"): ("right",),
-    ("model", "end_of_depth"): ("black",),
-    ("model", "fresnel"): ("exact",),
 }
 """The values that error models know today, of the keys of which they do not know all."""
 
@@ -83,11 +82,33 @@ def contradictions(declaration: Declaration) -> Iterator[tuple[Location, str]]:
         yield ("rays", "own_surface"), told
     if formulas.triangle == "watertight" and formulas.triangle_points == "barycentric":
         yield ("formulas", "triangle_points"), "expected 'along the ray' with the triangle test 'watertight'."
+    if declaration.conventions.field_of_view != "vertical" and precision_bits(declaration) > MOST_BITS_OF_ANGLES:
+        told = f"expected at most {MOST_BITS_OF_ANGLES} bits with a field of view that is not vertical"
+        yield ("arithmetic", "precision"), f"{told}, since the angle told is rounded; leave slack_bits."
+    yield from _contradictions_of_model(declaration)
     if declaration.sampling.samples:
+        if (declaration.conventions.pixel, declaration.conventions.pitch) != ("centre", "size"):
+            told = "expected rays through the centres of pixels, since samples are drawn; leave pixel and pitch out."
+            yield ("conventions", "pixel"), told
         if not declaration.uses("seed"):
             yield ("command",), "expected the placeholder {seed}, since samples are drawn; add it."
         if declaration.writes not in {"exr", "pfm"} or declaration.clipped:
             yield ("writes",), "expected 'exr' or 'pfm', not clipped, since the mean of pictures is judged."
+
+
+def _contradictions_of_model(declaration: Declaration) -> Iterator[tuple[Location, str]]:
+    model, rays = declaration.model, declaration.rays
+    weights = model.constant_weights
+    if weights is not None and sum(weights) > 1.0:
+        yield ("model", "constant_weights"), f"expected two weights that add up to at most 1, found {sum(weights):g}."
+    for key in ("fresnel", "constant_weights"):
+        if getattr(model, key) not in {"exact", None} and declaration.formulas.fresnel != "accurate":
+            yield ("formulas", "fresnel"), f"expected none beside {key} under [model]; leave it out."
+    if weights is not None and model.fresnel != "exact":
+        yield ("model", "constant_weights"), "expected these or fresnel, found both; leave one out."
+    for key in ("lit_from", "textured_at"):
+        if getattr(model, key) != "surface" and not (rays.offset or rays.relative_offset):
+            yield ("model", key), "expected an offset under [rays] with 'offset point'; state it."
 
 
 def own_surface(rays: Rays) -> Literal["excluded", "tested"]:
@@ -122,6 +143,9 @@ def error_model_of_declaration(declaration: Declaration) -> ErrorModel:
         triangle_test=TRIANGLE_TESTS[formulas.triangle],
         triangle_points=formulas.triangle_points,
         sphere_points=SPHERE_POINTS[formulas.sphere_normals],
+        camera_rays=declaration.conventions.camera_rays(),
+        field_of_view=declaration.conventions.field_of_view,
+        departures=declaration.model.departures(),
         output=output_model_of(declaration),
         random_choices="whatever its samples need" if declaration.sampling.samples else "",
     )
@@ -130,9 +154,11 @@ def error_model_of_declaration(declaration: Declaration) -> ErrorModel:
 def output_model_of(declaration: Declaration) -> OutputModel:
     """The output model that follows from the format of the program's picture."""
     numbers = numbers_of(declaration.writes, declaration.numbers)
+    conventions, is_one = declaration.conventions, declaration.sampling.samples == 0
     return OutputModel(
         numbers,
         transfer="sRGB" if declaration.colours == "srgb" else "linear",
         rounding="nearest" if declaration.rounding == "nearest" else "truncation",
-        clipped=numbers in {"uint8", "uint16"} or bool(declaration.clipped),
+        clipped=numbers in {"uint8", "uint16"} or bool(declaration.clipped) or (conventions.clamped_samples and is_one),
+        scale=conventions.scale,
     )

@@ -57,9 +57,9 @@ class FinishedImage:
         """It has none but its digest."""
         return f"picture {self.digest[:8]}"
 
-    def refuses(self, scene: Scene) -> str | None:  # noqa: ARG002 - the protocol's signature
-        """Nothing: it is there."""
-        return None
+    def refuses(self, scene: Scene) -> str | None:
+        """Why its conventions cannot be undone; else nothing, since it is there."""
+        return self.declaration.conventions.refuses(scene, 0)
 
     def is_stochastic(self, scene: Scene, integrator: str) -> bool:  # noqa: ARG002 - the protocol's signature
         """Never: of one picture nobody knows how it scatters."""

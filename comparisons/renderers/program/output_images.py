@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeVar, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 import OpenImageIO
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from raytruth.comparisons.records.renderings import Image
     from raytruth.comparisons.renderers.program.declaration import Declaration
 
-Number = TypeVar("Number", bound=np.generic)
 Format = Literal["exr", "pfm", "hdr", "ppm", "png"]
 Numbers = Literal["uint8", "uint16", "half", "float"]
 NUMBERS: tuple[Numbers, ...] = get_args(Numbers)
@@ -82,13 +81,7 @@ def read_output(path: Path, declared: Declaration, size: tuple[int, int], model:
         raise ImageError(f"the header of its {path.name} is damaged, a name in it is not UTF-8") from error
     finally:
         source.close()
-    return unflipped(_linear(np.asarray(pixels)[..., channels], model), declared)
-
-
-def unflipped(pixels: NDArray[Number], declared: Declaration) -> NDArray[Number]:
-    """The same pixels from the scene's top left, shape (height, width, …)."""
-    conventions = declared.conventions
-    return pixels[:: -1 if conventions.flip_y else 1, :: -1 if conventions.flip_x else 1]
+    return declared.conventions.undone(_linear(np.asarray(pixels)[..., channels], model))
 
 
 def _linear(pixels: NDArray[np.generic], model: OutputModel) -> Image:

@@ -49,9 +49,24 @@ slack_bits = 14             # left for other formulas and another order of opera
 [formulas]
 # triangle = "moeller-trumbore"     # or "watertight", "pluecker"
 
-[conventions]               # undone before the picture is judged
-# flip_x = true
-# flip_y = true
+[conventions]               # undone before the picture is judged: none of these is a mistake
+# flip_x = true             # the first column is the rightmost
+# flip_y = true             # the first row is the lowest
+# handedness = "left"       # right is up x forward, so that the picture is mirrored
+# pixel = "top left"        # rays go through corners of pixels; also "top right", "bottom left", "bottom right"
+# pitch = "size less one"   # the picture's width is divided by W - 1, its height by H - 1
+# field_of_view = "horizontal"  # what the scene's angle is taken for; also "larger side", "smaller side"
+# depth = 1                 # added to max_depth and {{depth}}: the camera's ray is counted, too
+# scale = 255.0             # so many times the radiance is written
+# clamped_samples = true    # to 1, before the mean is taken
+
+[model]                     # departures from the specification: `declared`, not passed, where one sees them
+# end_of_depth = "background"   # or "local": what a ray brings that the depth leaves no room for
+# fresnel = "schlick"       # or "schlick on the incident side"
+# constant_weights = [0.1, 0.9] # what glass reflects and transmits at all angles
+# With an offset under [rays] there are lit_from and textured_at, each "offset point": from where rays start.
+# highlights = "shadowed"   # highlights also in shadows; "everywhere": on sides turned away, too
+# clamped_lambert = true    # the sum of all lights' cosines is clamped to 1
 """
 
 

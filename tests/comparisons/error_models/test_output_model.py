@@ -284,3 +284,20 @@ def test_of_a_shared_exponent_what_is_read_lies_within_a_code_of_the_brightest_c
     assert ((high - low) <= max(2 / 128 * max(color) * 1.001, 2e-32)).all()
     with pytest.raises(ValueError, match="linear"):
         OutputModel("rgbe", transfer="sRGB")
+
+
+@given(
+    st.floats(2.0**-60, 2.0**60, width=32),
+    st.one_of(st.just(255.0), st.floats(2.0**-20, 2.0**20), st.integers(-20, 20).map(lambda power: 2.0**power)),
+)
+def test_what_is_written_times_a_scale_is_read_within_its_interval(radiance: float, scale: float) -> None:
+    model = OutputModel(scale=scale)
+    low, high = model.interval_read([radiance], [radiance])
+    # A tracer in float32 and one in float64: both write float32, and both times the value is read in float32.
+    for number in (np.float32, np.float64):
+        written = np.float32(number(radiance) * number(scale))
+        read = np.float32(model.linear_values(written))
+        assert low[0] <= read <= high[0]
+    assert high[0] - low[0] <= 2.0**-20 * radiance
+    with pytest.raises(ValueError, match="above 0"):
+        OutputModel(scale=-scale)

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from raytruth.comparisons.faults.catalogue import all_faults
-from raytruth.comparisons.faults.edits import Edit, Function
 from raytruth.comparisons.faults.fault import Fault, Subject, fault, subjects_in
 from raytruth.comparisons.faults.variants import all_variants
+from raytruth.reference_tracer.arithmetics.edits import Edit, Function
 from raytruth.reference_tracer.arithmetics.instantiation import SOURCE_FILES, source_module
 
 pytestmark = pytest.mark.clause("PRJ-6")

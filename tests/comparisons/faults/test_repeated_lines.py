@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from raytruth.comparisons.faults import catalogue, edits
+from raytruth.comparisons.faults import catalogue
+from raytruth.reference_tracer.arithmetics import edits
 from raytruth.reference_tracer.arithmetics.instantiation import source_module
 
 pytestmark = pytest.mark.clause("PRJ-6")

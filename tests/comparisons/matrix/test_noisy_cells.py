@@ -85,3 +85,11 @@ def test_an_unjudged_pixel_of_a_noisy_image_is_held_to_the_brightest_there_can_b
     assert ("(1 not judged)" in cell.reason) == bool(failing_pixels)
     distance = read_image(tmp_path / cell.images.tolerances)[0, 0]
     assert (distance.max() > 1) if failing_pixels else (distance == UNJUDGED).all()
+
+
+@pytest.mark.clause("VER-16")
+def test_what_is_not_due_at_all_is_declared_also_where_it_is_black(tmp_path: Path) -> None:
+    by = expectation("dark glass")
+    departing = replace(by, feasible=replace(by.feasible, due=np.zeros_like(by.feasible.due)), truth=by.truth + 0.5)
+    cell = judged(Pretender(noisy(0.0, "dark glass")), departing, tmp_path)
+    assert cell.verdict == Verdict.DECLARED, cell.reason

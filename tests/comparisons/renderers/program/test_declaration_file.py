@@ -121,13 +121,34 @@ precision = "float32"
         ("environment = { 'A=B' = '1' }", "environment.'A=B': expected the name of a variable"),
         ("rays.shadow.offset = 0.5", "rays.shadow.offset: a value of its own for one kind of ray cannot be judged yet"),
         ("[rays]\nrelative_least_distance = 1e-4", "rays.relative_least_distance: 0.0001 cannot be judged yet"),
-        ("conventions.handedness = 'left'", "conventions.handedness: 'left' cannot be judged yet"),
-        ("model.end_of_depth = 'local'", "model.end_of_depth: 'local' cannot be judged yet; so far expected 'black'."),
+        ("conventions.handedness = 'both'", "conventions.handedness: expected 'right' or 'left', found 'both'."),
+        ("conventions.scale = 0.0", "conventions.scale: expected a number above 0, found 0.0."),
+        (
+            "conventions.field_of_view = 'horizontal'\narithmetic.precision = 'float64'",
+            "arithmetic.precision: expected at most 49 bits",
+        ),
+        (
+            "model.constant_weights = [0.6, 0.5]",
+            "model.constant_weights: expected two weights that add up to at most 1",
+        ),
+        (
+            "model = { constant_weights = [0.5, 0.5], fresnel = 'schlick' }",
+            "model.constant_weights: expected these or fresnel, found both; leave one out.",
+        ),
+        ("model.lit_from = 'offset point'", "model.lit_from: expected an offset under [rays] with 'offset point'"),
+        ("model.textured_at = 'offset point'", "model.textured_at: expected an offset under [rays] with"),
     ],
 )
 def test_what_contradicts_or_cannot_be_judged_is_refused_at_its_place(more: str, expected: str, tmp_path: Path) -> None:
     (told,) = mistakes_of(tmp_path, LEAST + more)
     assert told.startswith(expected)
+
+
+def test_samples_are_drawn_through_the_centres_of_pixels(tmp_path: Path) -> None:
+    more = "sampling.samples = 4\nconventions.pixel = 'top left'"
+    command = '["./tracer", "{scene}", "{output}", "{seed}"]'
+    (told,) = mistakes_of(tmp_path, f'name = "mine"\ncommand = {command}\n{more}')
+    assert told.startswith("conventions.pixel: expected rays through the centres of pixels, since samples are drawn")
 
 
 def test_a_command_needs_the_scene_and_the_output(tmp_path: Path) -> None:

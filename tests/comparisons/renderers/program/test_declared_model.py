@@ -1,14 +1,19 @@
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 import pytest
 
+from raytruth.comparisons.error_models.departures import Departures
 from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.comparisons.renderers.program.declaration import Declaration
 from raytruth.comparisons.renderers.program.declaration_file import checked_declaration
 from raytruth.comparisons.renderers.program.declared_model import JUDGED, error_model_of_declaration
+from raytruth.comparisons.renderers.program.model import Model
+from raytruth.reference_tracer.camera_rays import CameraRays
+from tests.reference_tracer.small_scenes import small_scene
 
 pytestmark = pytest.mark.clause("REN-8")
 
@@ -61,6 +66,39 @@ def test_formulas_that_are_known_have_their_names() -> None:
         "barycentric",
         "normalised",
     )
+
+
+@pytest.mark.clause("VER-16", "VER-17")
+def test_conventions_and_departures_are_parts_of_the_error_model() -> None:
+    conventions = {"pixel": "bottom right", "pitch": "size less one", "field_of_view": "smaller side", "scale": 255.0}
+    declared = model(conventions=conventions, model={"end_of_depth": "local", "constant_weights": [0.25, 0.5]})
+    assert declared.camera_rays == CameraRays(1.0, 1.0, edge_to_edge=True)
+    assert declared.field_of_view == "smaller side"
+    assert declared.output.scale == 255.0
+    assert declared.departures == Departures("local", constant_weights=(0.25, 0.5))
+
+
+def test_every_departure_can_be_declared_by_its_name() -> None:
+    assert list(Model.model_fields) == [field.name for field in fields(Departures)]
+    assert Model().departures() == Departures()
+
+
+def test_paths_that_end_otherwise_are_judged_where_there_are_any() -> None:
+    mirror = {"white": {"mirror": {"reflectance": (0.5, 0.5, 0.5)}}}
+    departing = Model(end_of_depth="background")
+    assert "could end otherwise" in str(departing.refuses(small_scene(materials=mirror, max_depth=0)))
+    for model_of_scene, scene in (
+        (departing, small_scene(materials=mirror, max_depth=1)),
+        (departing, small_scene(max_depth=0)),
+        (Model(), small_scene(materials=mirror, max_depth=0)),
+    ):
+        assert model_of_scene.refuses(scene) is None
+
+
+def test_who_clamps_the_one_sample_of_a_pixel_writes_clipped_colours() -> None:
+    clamped = {"conventions": {"clamped_samples": True}}
+    assert model(**clamped).output.clipped
+    assert not model(**clamped, sampling={"samples": 2}).output.clipped
 
 
 @pytest.mark.clause("VER-5")

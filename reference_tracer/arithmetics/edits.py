@@ -1,4 +1,4 @@
-"""Edits of the tracer's source: what stands in one of its functions, and what a fault or a variant puts there instead.
+"""Edits of the tracer's source: what stands in one of its functions, and what a renderer or a fault has there instead.
 
 Both are Python, compared as syntax trees, so that spaces, quotes and line breaks do not matter. An edited function is a
 function like any other: it has a name, arguments and source, and can stand in for the one that it was made of.
@@ -13,7 +13,7 @@ import hashlib
 import inspect
 import linecache
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -53,14 +53,16 @@ def at_the_start(new: str) -> Edit:
     return Edit("", new)
 
 
-def edited(function: str, *edits: Edit, of: Function | None = None) -> Function:
+def edited(function: str, *edits: Edit, of: Function | None = None, helpers: Collection[str] = ()) -> Function:
     """The tracer's function of this name, or another that stands in for it (`of`), with these edits made in turn.
+
+    `helpers` are the names of functions beside the tracer's own that edits may use.
 
     Raises KeyError where the tracer has no such function. Raises ValueError where what an edit replaces is not there,
     or there another number of times than it says, and where an edit uses a name that the tracer does not know.
     """
     definition = _definition_of(function, of)
-    known = _names_of_the_tracer() | _names(definition)
+    known = _names_of_the_tracer() | _names(definition) | frozenset(helpers)
     for edit in edits:
         found = _make(edit, definition)
         if found != edit.times:

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from raytruth.comparisons.faults.edits import Edit, after, at_the_start, before, edited
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, make_kernel
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
+from raytruth.reference_tracer.arithmetics.edits import Edit, after, at_the_start, before, edited
 from raytruth.reference_tracer.arithmetics.instantiation import kernel_source, source_module
 from raytruth.scenes.requirements import Feature
 
