@@ -17,6 +17,11 @@ if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
 
 
+TriangleTest = Literal[
+    "watertight", "moeller-trumbore", "pluecker", "moeller-trumbore of 1997", "cramer", "plane and inside"
+]
+
+
 @dataclass(frozen=True)
 class RayOffset:
     """Where secondary and shadow rays start that leave a surface at p: at p + v·(absolute + relative·max|p|).
@@ -164,14 +169,7 @@ class ErrorModel:
     met or not. It grows as the least distance does."""
     index_bits: int | None = None
     """Indices of refraction are rounded to this many bits when they are stored, if to fewer than all else."""
-    triangle_test: Literal[
-        "watertight",
-        "moeller-trumbore",
-        "pluecker",
-        "moeller-trumbore of 1997",
-        "cramer",
-        "plane and inside",
-    ] = "watertight"
+    triangle_test: TriangleTest = "watertight"
     """Which formula decides whether a ray meets a triangle: the truth's own, one of triangle_tests.py, which are
     Embree's, or one of triangle_formulas.py."""
     triangle_points: Literal["along the ray", "barycentric"] = "along the ray"

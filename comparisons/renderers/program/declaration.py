@@ -180,6 +180,11 @@ class Rays(Part):
     shadow_shortening: Fraction = Field(
         0.0, description="At which fraction of the light's distance before the light a shadow ray ends."
     )
+    shadow_aim: Literal["light", "parallel", "either"] | None = Field(
+        None,
+        description="Where a shadow ray goes that starts beside the surface: from there to the light, or parallel to "
+        "the way from the surface; by default either.",
+    )
     shadow: LeavingRays | None = Field(None, description="What is otherwise for rays to lights.")
     reflected: LeavingRays | None = Field(None, description="What is otherwise for reflected rays.")
     refracted: LeavingRays | None = Field(None, description="What is otherwise for refracted rays.")
@@ -206,8 +211,11 @@ class Formulas(Part):
     refraction: Literal["accurate", "heckbert", "bec"] = Field(
         "accurate", description="How the refracted direction is found."
     )
-    directions: Literal["normalised", "unnormalised"] = Field(
-        "normalised", description="Whether rays have unit directions."
+    directions: Literal["normalised", "unnormalised"] | None = Field(
+        None,
+        description="Whether rays that leave a surface are made unit vectors once more, or a least distance is compared "
+        "with t in units of the direction's own length; by default as the specification's formulas give them, with "
+        "least distances as lengths.",
     )
 
 

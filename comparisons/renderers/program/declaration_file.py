@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from raytruth.comparisons.renderers.program.declaration import Declaration
-from raytruth.comparisons.renderers.program.declared_model import contradictions, not_judged_yet
+from raytruth.comparisons.renderers.program.declared_model import contradictions
 from raytruth.comparisons.renderers.program.output_images import FORMATS
 from raytruth.scenes.validation import problems_of
 from raytruth.scenes.wording import place, quoted
@@ -74,7 +74,6 @@ def _further_problems(declaration: Declaration) -> Iterator[tuple[Location, str]
     if declaration.colours == "srgb" and declaration.writes == "hdr":
         yield ("colours",), "expected 'linear' in hdr, found 'srgb'."
     yield from contradictions(declaration)
-    yield from not_judged_yet(declaration)
 
 
 def _without(data: dict[str, Any], wrong: Iterable[tuple[int | str, ...]]) -> dict[str, Any]:

@@ -1,13 +1,10 @@
-"""From what a user declares to the error model that the program is held to.
-
-What can be declared but not yet be judged is refused in a sentence, and never passed over.
-"""
+"""From what a user declares to the error model that the program is held to."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset, TriangleTest
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.comparisons.renderers.program.output_images import numbers_of
 from raytruth.scenes.wording import described
@@ -15,7 +12,7 @@ from raytruth.scenes.wording import described
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from raytruth.comparisons.renderers.program.declaration import Declaration, Rays
+    from raytruth.comparisons.renderers.program.declaration import Declaration, LeavingRays, Rays
 
 Location = tuple[str, ...]
 
@@ -29,42 +26,12 @@ FEWEST_BITS = 8
 # An angle is converted with some eight roundings of float64, which is 2^-50 of it.
 MOST_BITS_OF_ANGLES = 49
 
-TRIANGLE_TESTS: dict[str, Literal["watertight", "moeller-trumbore", "pluecker"]] = {
-    "watertight": "watertight",
-    "moeller-trumbore": "moeller-trumbore",
-    "pluecker": "pluecker",
-}
+TRIANGLE_TESTS: dict[str, TriangleTest] = {"moeller-trumbore": "moeller-trumbore of 1997"}
+"""Those that an error model calls otherwise: of Möller and Trumbore's it has Embree's, too."""
 SPHERE_POINTS: dict[str, Literal["along the ray", "normalised"]] = {
     "divided": "along the ray",
     "normalised": "normalised",
 }
-
-JUDGED: dict[Location, tuple[Any, ...]] = {
-    ("arithmetic", "smallest"): (0.0,),
-    ("rays", "relative_least_distance"): (0.0,),
-    ("formulas", "sphere"): ("accurate",),
-    ("formulas", "triangle"): tuple(TRIANGLE_TESTS),
-    ("formulas", "fresnel"): ("accurate",),
-    ("formulas", "refraction"): ("accurate",),
-    ("formulas", "directions"): ("normalised",),
-}
-"""The values that error models know today, of the keys of which they do not know all."""
-
-KINDS_OF_RAYS = ("shadow", "reflected", "refracted")
-
-
-def not_judged_yet(declaration: Declaration) -> Iterator[tuple[Location, str]]:
-    """Place and sentence for each value that can be declared, but that no error model expresses yet."""
-    for location, values in JUDGED.items():
-        value = getattr(getattr(declaration, location[0]), location[1])
-        if value not in values:
-            known = " or ".join(described(known) for known in values)
-            yield location, f"{described(value)} cannot be judged yet; so far expected {known}."
-    for kind in KINDS_OF_RAYS:
-        for key, value in getattr(declaration.rays, kind) or ():
-            if value not in (None, getattr(declaration.rays, key)):
-                told = "a value of its own for one kind of ray cannot be judged yet; state it under [rays] for all."
-                yield ("rays", kind, key), told
 
 
 def contradictions(declaration: Declaration) -> Iterator[tuple[Location, str]]:
@@ -77,11 +44,9 @@ def contradictions(declaration: Declaration) -> Iterator[tuple[Location, str]]:
             ("arithmetic", "slack_bits"),
             f"expected to leave {FEWEST_BITS} bits at least, found more slack.",
         )
-    if own_surface(rays) == "excluded" and (rays.least_distance > 0 or rays.along == "ray"):
-        told = "with a least distance or an offset along the ray only 'tested' can be judged yet."
-        yield ("rays", "own_surface"), told
-    if formulas.triangle == "watertight" and formulas.triangle_points == "barycentric":
-        yield ("formulas", "triangle_points"), "expected 'along the ray' with the triangle test 'watertight'."
+    if formulas.triangle in {"watertight", "plane and inside"} and formulas.triangle_points == "barycentric":
+        told = f"expected 'along the ray' with the triangle test {described(formulas.triangle)}, which has no weights."
+        yield ("formulas", "triangle_points"), told
     if declaration.conventions.field_of_view != "vertical" and precision_bits(declaration) > MOST_BITS_OF_ANGLES:
         told = f"expected at most {MOST_BITS_OF_ANGLES} bits with a field of view that is not vertical"
         yield ("arithmetic", "precision"), f"{told}, since the angle told is rounded; leave slack_bits."
@@ -111,13 +76,6 @@ def _contradictions_of_model(declaration: Declaration) -> Iterator[tuple[Locatio
             yield ("model", key), "expected an offset under [rays] with 'offset point'; state it."
 
 
-def own_surface(rays: Rays) -> Literal["excluded", "tested"]:
-    """What becomes of the surface that a ray leaves."""
-    if rays.own_surface is not None:
-        return rays.own_surface
-    return "tested" if rays.least_distance > 0 or rays.along == "ray" else "excluded"
-
-
 def precision_bits(declaration: Declaration) -> int:
     """The bits of one operation, less what is left for slack."""
     arithmetic = declaration.arithmetic
@@ -126,28 +84,49 @@ def precision_bits(declaration: Declaration) -> int:
 
 
 def error_model_of_declaration(declaration: Declaration) -> ErrorModel:
-    """The error model of a program of which nothing is told by the two functions above."""
+    """The error model of a program of which nothing is told by the function above."""
     rays, formulas = declaration.rays, declaration.formulas
     bits = precision_bits(declaration)
+    offset = declared_offset(rays)
+    shadow = declared_offset(rays, rays.shadow)
     return ErrorModel(
         f"numbers of {bits} bits, as declared",  # no name in it: programs that declare the same share feasible sets
         precision_bits=bits,
-        ray_offset=RayOffset(
-            absolute=rays.offset,
-            relative=rays.relative_offset,
-            along="normal" if rays.along == "normal" else "direction",
-            minimum_distance=rays.least_distance,
-            excludes_surface=own_surface(rays) == "excluded",
-        ),
+        ray_offset=offset,
+        shadow_offset=shadow if shadow != offset else None,
+        reflected_offset=declared_offset(rays, rays.reflected) if rays.reflected else None,
+        refracted_offset=declared_offset(rays, rays.refracted) if rays.refracted else None,
+        shadow_aim=rays.shadow_aim or ("either" if shadow.moves_rays else "light"),
         shadow_shortening=rays.shadow_shortening,
-        triangle_test=TRIANGLE_TESTS[formulas.triangle],
+        triangle_test=TRIANGLE_TESTS.get(formulas.triangle, formulas.triangle),
         triangle_points=formulas.triangle_points,
+        sphere_test=formulas.sphere,
         sphere_points=SPHERE_POINTS[formulas.sphere_normals],
+        directions=formulas.directions or "as in the truth",
+        fresnel=formulas.fresnel,
+        refraction=formulas.refraction,
+        smallest=declaration.arithmetic.smallest,
         camera_rays=declaration.conventions.camera_rays(),
         field_of_view=declaration.conventions.field_of_view,
         departures=declaration.model.departures(),
         output=output_model_of(declaration),
         random_choices="whatever its samples need" if declaration.sampling.samples else "",
+    )
+
+
+def declared_offset(rays: Rays, of_kind: LeavingRays | None = None) -> RayOffset:
+    """Where rays start that leave a surface: all, or those of one kind for which something is stated apart."""
+    stated = {key: value for key, value in of_kind or () if value is not None}
+    told = {key: stated.get(key, value) for key, value in rays}
+    near = told["least_distance"] > 0 or told["relative_least_distance"] > 0
+    tested = near or told["along"] == "ray"
+    return RayOffset(
+        absolute=told["offset"],
+        relative=told["relative_offset"],
+        along="normal" if told["along"] == "normal" else "direction",
+        minimum_distance=told["least_distance"],
+        relative_minimum_distance=told["relative_least_distance"],
+        excludes_surface=(told["own_surface"] or ("tested" if tested else "excluded")) == "excluded",
     )
 
 
