@@ -213,9 +213,9 @@ class Formulas(Part):
     )
     directions: Literal["normalised", "unnormalised"] | None = Field(
         None,
-        description="Whether rays that leave a surface are made unit vectors once more, or a least distance is compared "
-        "with t in units of the direction's own length; by default as the specification's formulas give them, with "
-        "least distances as lengths.",
+        description="Whether rays that leave a surface are made unit vectors once more, or least distances are "
+        "compared with t in units of the direction's own length; by default directions are as the specification's "
+        "formulas give them, and least distances are lengths.",
     )
 
 

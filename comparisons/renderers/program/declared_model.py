@@ -36,7 +36,7 @@ SPHERE_POINTS: dict[str, Literal["along the ray", "normalised"]] = {
 
 def contradictions(declaration: Declaration) -> Iterator[tuple[Location, str]]:
     """Place and sentence for each key that does not go with another."""
-    arithmetic, rays, formulas = declaration.arithmetic, declaration.rays, declaration.formulas
+    arithmetic, formulas = declaration.arithmetic, declaration.formulas
     if arithmetic.bits is not None and arithmetic.precision is not None:
         yield ("arithmetic", "bits"), "expected either precision or bits, found both; leave one out."
     elif precision_bits(declaration) < FEWEST_BITS:

@@ -47,7 +47,12 @@ slack_bits = 14             # left for other formulas and another order of opera
 # shadow_shortening = 0.001 # shadow rays end at this fraction of the way before the light
 
 [formulas]
-# triangle = "moeller-trumbore"     # or "watertight", "pluecker"
+# In float32 declare what you have typed; raytruth renderers --formulas shows the code of each.
+# sphere = "quadratic"              # or "stable quadratic", "geometric"
+# sphere_normals = "normalised"     # p - c made a unit vector, not (p - c)/r
+# triangle = "moeller-trumbore"     # or "cramer", "plane and inside", "pluecker"
+# fresnel = "cosines"
+# refraction = "heckbert"           # or "bec"
 
 [conventions]               # undone before the picture is judged: none of these is a mistake
 # flip_x = true             # the first column is the rightmost

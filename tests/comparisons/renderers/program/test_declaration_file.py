@@ -104,8 +104,6 @@ precision = "float32"
         "rays.offset: expected a number, found '1e-4'.",
         "nam: expected no key 'nam' here; did you mean 'name'?",
         "arithmetic.bits: expected either precision or bits, found both; leave one out.",
-        "rays.own_surface: with a least distance or an offset along the ray only 'tested' can be judged yet.",
-        "formulas.sphere: 'geometric' cannot be judged yet; so far expected 'accurate'.",
     )
 
 
@@ -119,8 +117,10 @@ precision = "float32"
         ("arithmetic = { precision = 'float32', slack_bits = 20 }", "arithmetic.slack_bits: expected to leave 8 bits"),
         ("formulas.triangle_points = 'barycentric'", "formulas.triangle_points: expected 'along the ray'"),
         ("environment = { 'A=B' = '1' }", "environment.'A=B': expected the name of a variable"),
-        ("rays.shadow.offset = 0.5", "rays.shadow.offset: a value of its own for one kind of ray cannot be judged yet"),
-        ("[rays]\nrelative_least_distance = 1e-4", "rays.relative_least_distance: 0.0001 cannot be judged yet"),
+        (
+            "[formulas]\ntriangle = 'plane and inside'\ntriangle_points = 'barycentric'",
+            "formulas.triangle_points: expected 'along the ray' with the triangle test 'plane and inside'",
+        ),
         ("conventions.handedness = 'both'", "conventions.handedness: expected 'right' or 'left', found 'both'."),
         ("conventions.scale = 0.0", "conventions.scale: expected a number above 0, found 0.0."),
         (

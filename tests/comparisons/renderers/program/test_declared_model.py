@@ -1,16 +1,17 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any
+from typing import Any, Literal, get_args, get_origin
 
 import pytest
 
 from raytruth.comparisons.error_models.departures import Departures
 from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
 from raytruth.comparisons.error_models.output_model import OutputModel
-from raytruth.comparisons.renderers.program.declaration import Declaration
+from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
+from raytruth.comparisons.renderers.program.declaration import Formulas
 from raytruth.comparisons.renderers.program.declaration_file import checked_declaration
-from raytruth.comparisons.renderers.program.declared_model import JUDGED, error_model_of_declaration
+from raytruth.comparisons.renderers.program.declared_model import error_model_of_declaration
 from raytruth.comparisons.renderers.program.model import Model
 from raytruth.reference_tracer.camera_rays import CameraRays
 from tests.reference_tracer.small_scenes import small_scene
@@ -119,11 +120,37 @@ def test_the_output_follows_from_the_format(keys: dict[str, Any], output: Output
     assert model(**keys).output == output
 
 
-def test_each_value_that_can_be_declared_is_judged_or_refused() -> None:
-    """A key with a choice is either of the output, or in the error model, or has a list of what is judged."""
-    for (part, key), values in JUDGED.items():
-        assert key in type(getattr(Declaration(name="a", command=("{scene}",)), part)).model_fields
-        assert values
+def choices() -> list[tuple[str, str]]:
+    """All values of [formulas]."""
+    found = []
+    for key, field in Formulas.model_fields.items():
+        kinds = [kind for kind in (field.annotation, *get_args(field.annotation)) if get_origin(kind) is Literal]
+        found += [(key, value) for value in get_args(kinds[0])]
+    return found
+
+
+@pytest.mark.parametrize(("key", "value"), choices())
+def test_every_formula_that_can_be_declared_is_one_of_an_error_model(key: str, value: str) -> None:
+    assert len(choices()) >= 18
+    others = {"triangle": "pluecker"} if (key, value) == ("triangle_points", "barycentric") else {}
+    declared, plain = model(formulas={key: value, **others}), model(formulas=others)
+    assert (declared == plain) == (value == Formulas.model_fields[key].default)
+    feasible = feasible_set(small_scene(), declared)
+    assert feasible.outcomes.min() > 0
+
+
+def test_each_kind_of_ray_may_leave_a_surface_in_its_own_way() -> None:
+    declared = model(rays={"offset": 1e-4, "shadow": {"least_distance": 1e-3, "offset": 0.0}, "refracted": {}})
+    assert declared.ray_offset == declared.reflected_offset or declared.reflected_offset is None
+    assert declared.shadow_offset == RayOffset(minimum_distance=1e-3, excludes_surface=False)
+    assert declared.offsets()[1:] == (RayOffset(1e-4),) * 3
+    assert declared.shadow_aim == "light"  # its shadow rays start on the surface
+    aims = {aim: model(rays={"offset": 1e-4, "shadow_aim": aim}).shadow_aim for aim in ("light", "parallel", "either")}
+    assert aims == {aim: aim for aim in aims}
+    assert model(rays={"offset": 1e-4}).shadow_aim == "either"
+    scaled = model(rays={"relative_least_distance": 1e-4})
+    assert scaled.ray_offset == RayOffset(relative_minimum_distance=1e-4, excludes_surface=False)
+    assert model(arithmetic={"smallest": 1e-38}).smallest == 1e-38
 
 
 def test_programs_that_declare_the_same_share_feasible_sets() -> None:
