@@ -15,7 +15,6 @@ from raytruth.comparisons.judgement.pixel_verdict import with_shortcuts
 from raytruth.comparisons.judgement.verdict import judge_exact
 from raytruth.comparisons.renderers.program.declaration_file import load_declaration
 from raytruth.comparisons.renderers.program.declared_model import error_model_of_declaration
-from raytruth.comparisons.renderers.program.output_images import unflipped
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -80,7 +79,8 @@ def judge(image: NDArray[np.floating[Any]], scene: Scene, error_model: ErrorMode
     _check(image, scene)
     if not isinstance(error_model, ErrorModel):
         declared = _of_one_picture(Path(error_model))
-        image, error_model = unflipped(image, declared), error_model_of_declaration(declared).in_scene(scene)
+        image = declared.conventions.undone(image)
+        error_model = error_model_of_declaration(declared).in_scene(scene)
     values: Any = image.astype(np.float64)  # holds every number of the narrower types
     expectation = kept_expectation(scene, error_model)
     judged = judge_exact(values, expectation)

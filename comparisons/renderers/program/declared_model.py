@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Literal
 
 from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset, TriangleTest
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.renderers.program.declaration import LeavingRays
 from raytruth.comparisons.renderers.program.output_images import numbers_of
 from raytruth.scenes.wording import described
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from raytruth.comparisons.renderers.program.declaration import Declaration, LeavingRays, Rays
+    from raytruth.comparisons.renderers.program.declaration import Declaration, Rays
 
 Location = tuple[str, ...]
 
@@ -116,17 +117,21 @@ def error_model_of_declaration(declaration: Declaration) -> ErrorModel:
 
 def declared_offset(rays: Rays, of_kind: LeavingRays | None = None) -> RayOffset:
     """Where rays start that leave a surface: all, or those of one kind for which something is stated apart."""
-    stated = {key: value for key, value in of_kind or () if value is not None}
-    told = {key: stated.get(key, value) for key, value in rays}
-    near = told["least_distance"] > 0 or told["relative_least_distance"] > 0
-    tested = near or told["along"] == "ray"
+    own = of_kind or LeavingRays()
+    least = rays.least_distance if own.least_distance is None else own.least_distance
+    scaled = own.relative_least_distance
+    relative_least = rays.relative_least_distance if scaled is None else scaled
+    along = own.along or rays.along
+    surface = own.own_surface or rays.own_surface
+    if surface is None:
+        surface = "tested" if least > 0 or relative_least > 0 or along == "ray" else "excluded"
     return RayOffset(
-        absolute=told["offset"],
-        relative=told["relative_offset"],
-        along="normal" if told["along"] == "normal" else "direction",
-        minimum_distance=told["least_distance"],
-        relative_minimum_distance=told["relative_least_distance"],
-        excludes_surface=(told["own_surface"] or ("tested" if tested else "excluded")) == "excluded",
+        absolute=rays.offset if own.offset is None else own.offset,
+        relative=rays.relative_offset if own.relative_offset is None else own.relative_offset,
+        along="normal" if along == "normal" else "direction",
+        minimum_distance=least,
+        relative_minimum_distance=relative_least,
+        excludes_surface=surface == "excluded",
     )
 
 
