@@ -85,9 +85,10 @@ def offset_behaviour(error_model: ErrorModel) -> Behaviour:
         "minimum_distance": stored_number(offset.minimum_distance, bits),
         "shadow_shortening": stored_number(error_model.shadow_shortening, bits),
         "shadow_tolerance": stored_number(error_model.shadow_tolerance, bits),
-        "farthest_met": arb(min(error_model.farthest, sys.float_info.max)),  # not infinite: it is divided
         "either_sign": arb(0, 1),
     }
+    if "nearest_hit" in functions or "is_shadowed" in functions:
+        constants["farthest_met"] = arb(min(error_model.farthest, sys.float_info.max))  # not infinite: it is divided
     return Behaviour(functions, (offset_length, comes_back), constants, "ray offsets")
 
 
