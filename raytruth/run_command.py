@@ -92,7 +92,6 @@ def run(
     if quick and scenes:
         raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
     opened = _opened(write_quick_suite(out) if quick else scenes or library_names())
-    by_name = {scene.name: scene for scene in opened.values()}
     with only_run_in(out):
         _tell_damage(out)
         with progress("Looking for the renderers"):
@@ -104,10 +103,10 @@ def run(
         except KeyboardInterrupt:
             # What is finished can be shown, and the next run goes on from there.
             finished = plan_run(opened, list(selected.values()), out, fresh=False).settled
-            waived, _ = apply_waivers(known_failures, finished, plan.versions, by_name)
+            waived, _ = apply_waivers(known_failures, finished, plan.versions, opened.values())
             write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), waived)
             raise
-        cells, unmatched = apply_waivers(known_failures, cells, plan.versions, by_name)
+        cells, unmatched = apply_waivers(known_failures, cells, plan.versions, opened.values())
         results = write_results(out, _command(), list(opened.values()), _with_versions(selected, plan), cells)
         report = written_report(out, unless_current=True)
     _show(results, report, as_json)

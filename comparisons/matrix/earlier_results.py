@@ -75,7 +75,7 @@ def _rebuilt(directory: Path) -> Results | None:
         return None
     versions = {cell.renderer: cell.version for cell in cells}
     scenes = {cell.scene: _found_scene(cell) for cell in cells}
-    found = {name: scene for name, scene in scenes.items() if scene is not None}
+    found = [scene for scene in scenes.values() if scene is not None]
     waived, _ = apply_waivers(load_waivers(), cells, versions, found)
     return Results(
         raytruth_version="",

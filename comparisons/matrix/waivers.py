@@ -85,20 +85,20 @@ def apply_waivers(
     waivers: Iterable[Waiver],
     cells: Sequence[Cell],
     versions: Mapping[str, str | None],
-    scenes: Mapping[str, Scene],
+    scenes: Iterable[Scene],
 ) -> tuple[list[Cell], list[str]]:
     """The cells, waived where they fail as a waiver says; a sentence for each of a scene that matches nothing.
 
-    `versions` has each renderer that was run, and `scenes` each scene by its name. Waivers of other renderers, versions
+    `versions` has each renderer that was run, and `scenes` are those of the cells. Waivers of other renderers, versions
     and scenes are left alone, as are those of cells that ended in an error, which fail the run by themselves.
     """
-    after = list(cells)
+    after, by_name = list(cells), {scene.name: scene for scene in scenes}
     unmatched = []
     for waiver in waivers:
         if not fnmatch.fnmatchcase(versions.get(waiver.renderer) or "", waiver.version):
             continue
         for index, cell in enumerate(after):
-            if not _is_about(waiver, cell, scenes):
+            if not _is_about(waiver, cell, by_name):
                 continue
             if cell.verdict == Verdict.FAIL and _excuses(waiver, cell):
                 after[index] = cell.model_copy(update={"waived": Waived(reason=waiver.reason, link=waiver.link)})

@@ -34,7 +34,7 @@ def cell(verdict: Verdict = Verdict.FAIL, failing: int = 3, **more: Any) -> Cell
 
 def applied(found: Cell, versions: dict[str, str | None] | None = None, **changes: Any) -> tuple[Cell, list[str]]:
     waiver = Waiver.model_validate(WAIVER | changes)
-    (after,), unmatched = apply_waivers([waiver], [found], VERSIONS if versions is None else versions, {})
+    (after,), unmatched = apply_waivers([waiver], [found], VERSIONS if versions is None else versions, [])
     return after, unmatched
 
 
@@ -109,7 +109,7 @@ OF_PROPERTY |= {"scenes_with": "nested dielectrics"}
 @pytest.mark.parametrize(("scene", "has_it"), [("bubble-in-glass", True), ("glass-sphere", False), ("gone", False)])
 def test_a_waiver_of_a_property_is_of_all_scenes_that_have_it_and_is_never_told(scene: str, has_it: bool) -> None:
     waiver = Waiver.model_validate(OF_PROPERTY)
-    scenes = {name: open_scene(name).model_copy(update={"name": name}) for name in library_names()}
+    scenes = [open_scene(name) for name in library_names()]
     for found in (
         cell(failing=9, scene=scene),
         cell(Verdict.PASS, 0, scene=scene),
@@ -124,8 +124,9 @@ def test_a_waiver_of_a_property_is_of_all_scenes_that_have_it_and_is_never_told(
 
 def test_a_scene_with_more_failing_pixels_than_its_own_waiver_excuses_is_still_known_by_its_property() -> None:
     waivers = [Waiver.model_validate(WAIVER | {"scene": "bubble-in-glass"}), Waiver.model_validate(OF_PROPERTY)]
-    scenes = {"bubble-in-glass": open_scene("bubble-in-glass")}
-    (after,), unmatched = apply_waivers(waivers, [cell(failing=4, scene="bubble-in-glass")], VERSIONS, scenes)
+    (after,), unmatched = apply_waivers(
+        waivers, [cell(failing=4, scene="bubble-in-glass")], VERSIONS, [open_scene("bubble-in-glass")]
+    )
     assert after.waived is not None
     assert len(unmatched) == 1  # which fails the run all the same
 
