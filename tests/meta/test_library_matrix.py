@@ -29,7 +29,7 @@ CYCLES_REQUIRED = REQUIRE_ALL and sys.version_info[:2] == (3, 11)  # there is a 
 SINGLE_LIGHT_LIMIT = 2e-5
 # All pixels lie in their feasible sets; a few of them may be as declared, not as due.
 AGREES = {"pass", "declared"}
-# The most pixels of any cell of a scene that were ever seen so. They lie on edges, where a ray that starts 1e-4 beside a
+# The most pixels of any cell of a scene that were seen so. They lie on edges, where a ray that starts 1e-4 beside a
 # surface meets another object than it should.
 MOST_DECLARED = {
     "bubble-in-glass": 9,
