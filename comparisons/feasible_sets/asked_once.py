@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from raytruth.reference_tracer.arithmetics.balls import Decisions
     from raytruth.reference_tracer.arithmetics.kernel import Kernel
 
-# Ways through the comparisons of one shadow ray: where six triangles of a box meet, most ways agree within some dozens.
+# Ways that are followed through the comparisons of one shadow ray. It only bounds the work: beyond, both light and
+# shadow are possible. Where six triangles of a box meet, ways to a shadow and past it are found within some dozens.
 MOST_WAYS = 64
 
 

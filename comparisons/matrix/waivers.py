@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
 
 PACKAGED = Path(__file__).with_name("waivers.json")
-"""The failures of renderers on scenes of the library."""
+"""The failures that are known of the renderers of the catalogue."""
 
 Text = Annotated[str, Field(min_length=1)]
 

@@ -28,9 +28,9 @@ def test_an_interruption_that_reaches_another_thread_is_held_back_as_well() -> N
     thread.start()
     reached = False
     try:
-        with pytest.raises(KeyboardInterrupt), interruption_held_back():  # noqa: PT012 - as above
+        with pytest.raises(KeyboardInterrupt), interruption_held_back():  # noqa: PT012 - the end of the block raises it
             os.kill(os.getpid(), signal.SIGINT)  # blocked in this thread, but not in that one
-            time.sleep(0.01)
+            time.sleep(0.01)  # lets this thread run the handler, if the other has taken the signal
             reached = True
     finally:
         ended.set()
