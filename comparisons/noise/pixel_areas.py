@@ -30,7 +30,7 @@ def area_means(scene: Scene) -> tuple[Array, Array]:
     The radiance is computed at a regular grid of points. Each stands for its cell, with the least and the largest of
     its eight neighbours. So an edge between two points may lie anywhere between them, and half a cell more is left for
     a renderer whose image is displaced by as much, as where rays start off a surface. It assumes that nothing is
-    smaller than a cell.
+    smaller than a cell; of shapes, shape_widths.py tells.
     """
     grid = _points_a_side(scene)
     points = render(enlarged(scene, grid))

@@ -58,7 +58,7 @@ def largest_splats(scene: Scene) -> Array:
 
     Of several lights one is taken for each path: with equal probability, or with one in proportion to its power; so a
     path counts as many times as there are lights, or fewer. Assumes `has_splat_bound`, and that no surface is seen by
-    neither a pixel's points nor those of the pixels around it.
+    neither a pixel's points nor those of the pixels around it; of shapes, shape_widths.py tells.
     """
     fine = enlarged(scene, GRID)
     distances, primitives = first_hits(prepare(fine))

@@ -9,6 +9,7 @@ from raytruth.comparisons.renderers.closed_form.adapter import ClosedFormRendere
 from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_llvm
 from raytruth.comparisons.renderers.own_tracer import ReferenceTracer
 from raytruth.comparisons.renderers.protocol import Integrator
+from raytruth.scenes.families.catalogue import family
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.lights import shines
 from raytruth.scenes.planes import has_planes
@@ -51,6 +52,11 @@ def test_light_traced_forward_needs_point_lights_on_diffuse_surfaces_before_a_pe
     parallel = depth_or_reason(open_scene("parallel-projection"), mitsuba_llvm(), LIGHT_TRACER)
     assert "point lights" in str(directional)
     assert "perspective camera" in str(parallel)
+
+
+@pytest.mark.parametrize(("scale", "seed"), [(100.0, 153), (1e4, 159), (100.0, 168)])
+def test_light_traced_forward_is_not_held_to_bounds_that_a_sliver_can_escape(scale: float, seed: int) -> None:
+    assert "pixels wide" in str(depth_or_reason(family("drawn", scale, seed), mitsuba_llvm(), LIGHT_TRACER))
 
 
 def test_what_a_renderer_refuses_comes_before_light_paths() -> None:
