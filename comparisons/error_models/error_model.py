@@ -211,9 +211,9 @@ class ErrorModel:
     """Of rays that leave a surface: a mirror's and a refracted one as they come out of their formulas, and a shadow ray
     as long as the way to the light, with least distances as lengths; all made unit vectors once more; or as the first,
     but with least distances compared with t in units of the direction's length."""
-    fresnel: Literal["accurate", "cosines"] = "accurate"
-    """Which formula says how a dielectric splits light: the truth's own, or that of dielectric_formulas.py."""
-    refraction: Literal["accurate", "heckbert", "bec"] = "accurate"
+    fresnel: Literal["accurate", "as specified", "cosines"] = "accurate"
+    """Which formula says how a dielectric splits light: the truth's own, or one of dielectric_formulas.py."""
+    refraction: Literal["accurate", "as specified", "heckbert", "bec"] = "accurate"
     """The same of the refracted direction, and of whether there is one."""
     smallest: float = 0.0
     """A colour may be off by so much whatever it is: what is smaller may have been flushed to 0 on the way."""

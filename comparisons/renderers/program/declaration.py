@@ -205,11 +205,15 @@ class Formulas(Part):
     sphere_normals: Literal["divided", "normalised"] = Field(
         "divided", description="(p - c)/r, or p - c made a unit vector."
     )
-    fresnel: Literal["accurate", "cosines"] = Field(
-        "accurate", description="How Fresnel's equations are evaluated: as in the specification, or from two cosines."
+    fresnel: Literal["accurate", "as specified", "cosines"] = Field(
+        "accurate",
+        description="How Fresnel's equations are evaluated: without any cancellation, as REFR-4 of the specification "
+        "is written, or from two cosines.",
     )
-    refraction: Literal["accurate", "heckbert", "bec"] = Field(
-        "accurate", description="How the refracted direction is found."
+    refraction: Literal["accurate", "as specified", "heckbert", "bec"] = Field(
+        "accurate",
+        description="How the refracted direction is found, and whether there is one: without any cancellation, as "
+        "REFR-2 and REFR-3 are written, or by Heckbert's or Bec's formula.",
     )
     directions: Literal["normalised", "unnormalised"] | None = Field(
         None,

@@ -51,8 +51,8 @@ slack_bits = 14             # left for other formulas and another order of opera
 # sphere = "quadratic"              # or "stable quadratic", "geometric"
 # sphere_normals = "normalised"     # p - c made a unit vector, not (p - c)/r
 # triangle = "moeller-trumbore"     # or "cramer", "plane and inside", "pluecker"
-# fresnel = "cosines"
-# refraction = "heckbert"           # or "bec"
+# fresnel = "as specified"          # the specification's REFR-4 as it is written; or "cosines"
+# refraction = "as specified"       # REFR-2 and REFR-3 as they are written; or "heckbert", "bec"
 
 [conventions]               # undone before the picture is judged: none of these is a mistake
 # flip_x = true             # the first column is the rightmost
