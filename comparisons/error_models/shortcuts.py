@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.comparisons.error_models.departures import NONE
-from raytruth.comparisons.error_models.error_model import RayOffset
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.scenes.extent import largest_coordinate
 from raytruth.scenes.planes import has_planes
 from raytruth.scenes.shapes import Plane, Sphere

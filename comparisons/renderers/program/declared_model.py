@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset, TriangleTest
+from raytruth.comparisons.error_models.error_model import ErrorModel, TriangleTest
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.renderers.program.declaration import LeavingRays
 from raytruth.comparisons.renderers.program.output_images import numbers_of
 from raytruth.scenes.wording import described

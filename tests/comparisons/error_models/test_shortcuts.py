@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.shortcuts import has_shortcuts, shortcuts_in_words, without_shortcuts
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.scenes.library import open_scene

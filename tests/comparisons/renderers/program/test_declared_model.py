@@ -6,8 +6,9 @@ from typing import Any, Literal, get_args, get_origin
 import pytest
 
 from raytruth.comparisons.error_models.departures import Departures
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from raytruth.comparisons.renderers.program.declaration import Formulas
 from raytruth.comparisons.renderers.program.declaration_file import checked_declaration
