@@ -55,6 +55,14 @@ def _with_known_placeholders(word: str) -> str:
     return word
 
 
+def _a_pattern(pattern: str) -> str:
+    parts = pattern.split("/")
+    if not pattern or pattern.startswith("/") or any("**" in part and part != "**" for part in parts):
+        told = "as src/**/*.py: from the folder of this file, with ** for folders of any depth"
+        raise ValueError(f"expected a pattern {told}, found {quoted(pattern)}")
+    return pattern
+
+
 def _a_feature(name: str) -> str:
     known = [feature.lower() for feature in Feature]
     if name not in known:
@@ -65,6 +73,7 @@ def _a_feature(name: str) -> str:
 Text = Annotated[str, AfterValidator(_without_nul)]
 Word = Annotated[Text, AfterValidator(_with_known_placeholders)]
 Variable = Annotated[str, AfterValidator(_usable_variable)]
+Pattern = Annotated[Text, AfterValidator(_a_pattern)]
 FeatureName = Annotated[
     str, AfterValidator(_a_feature), Field(json_schema_extra={"enum": sorted(map(str.lower, Feature))})
 ]
@@ -233,6 +242,12 @@ class Declaration(Part):
         "found from the folder of this file. {scene} and {output} are the files to read and to write; {first_hits} a "
         "second picture to write, of what is seen first; {width}, {height}, {depth}, {samples} and {seed} are numbers; "
         "{folder} is the folder of this file.",
+    )
+    files: tuple[Pattern, ...] | None = Field(
+        None,
+        description="Patterns of files that the program consists of besides those that its command names, as "
+        "'src/**/*.py' or '*.glsl', from the folder of this file: when one changes, the program is judged anew. "
+        "By default all files with the ending of a script that the command names, in its folder and below.",
     )
     version: tuple[Word, ...] = Field((), description="A command whose first line of output is the version.")
     reads: Literal["json", "obj", "mitsuba", "povray", "gltf", "pbrt"] = Field(

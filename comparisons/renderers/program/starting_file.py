@@ -12,6 +12,9 @@ name = "{name}"
 # read and {{output}} the picture to write. There are also {{width}}, {{height}}, {{depth}}, {{seed}}, {{samples}},
 # {{folder}} (this one) and {{first_hits}}, an OpenEXR file with the channels Z, P.X, P.Y, P.Z, N.X, N.Y, N.Z and id.
 command = ["./{name}", "{{scene}}", "{{output}}"]
+# Patterns of other files that it consists of: when one changes, it is judged anew. By default, for a script, all files
+# with its ending in its folder and below.
+# files = ["src/**/*.py", "*.glsl"]
 # version = ["./{name}", "--version"]
 
 reads = "json"              # or obj, mitsuba, povray, gltf, pbrt: see raytruth scenes export

@@ -113,6 +113,8 @@ precision = "float32"
         ("numbers = 'uint16'", "numbers: expected 'float' or 'half' in exr, found 'uint16'."),
         ("writes = 'png'\nclipped = false", "clipped: expected true, since whole numbers hold nothing above 1."),
         ("writes = 'hdr'\ncolours = 'srgb'", "colours: expected 'linear' in hdr, found 'srgb'."),
+        ("files = ['/src/*.py']", "files[0]: expected a pattern as src/**/*.py: from the folder of this file"),
+        ("files = ['**.py', '']", "files[1]: expected a pattern as src/**/*.py"),
         ("sampling.samples = 4", "command: expected the placeholder {seed}, since samples are drawn; add it."),
         ("arithmetic = { precision = 'float32', slack_bits = 20 }", "arithmetic.slack_bits: expected to leave 8 bits"),
         ("formulas.triangle_points = 'barycentric'", "formulas.triangle_points: expected 'along the ray'"),
