@@ -267,8 +267,13 @@ class Declaration(Part):
         None, description="Whether colours above 1 are written as 1, as whole numbers always are."
     )
     environment: dict[Variable, Text] = Field({}, description="Variables of the environment that it runs in.")
+    reference: Truth = Field(
+        False,
+        description="Whether it is an independent reference, so that scenes on which it passes count as confirmed by "
+        "it. A program under test confirms nothing.",
+    )
     family: Annotated[str, AfterValidator(_usable_name)] | None = Field(
-        None, description="Programs of one family share code, and are one opinion; by default the name."
+        None, description="Of references: those of one family share code, and are one opinion; by default the name."
     )
     limits: Limits = Limits()
     scenes: Scenes = Scenes()

@@ -52,6 +52,8 @@ def contradictions(declaration: Declaration) -> Iterator[tuple[Location, str]]:
     if declaration.conventions.field_of_view != "vertical" and precision_bits(declaration) > MOST_BITS_OF_ANGLES:
         told = f"expected at most {MOST_BITS_OF_ANGLES} bits with a field of view that is not vertical"
         yield ("arithmetic", "precision"), f"{told}, since the angle told is rounded; leave slack_bits."
+    if declaration.family is not None and not declaration.reference:
+        yield ("family",), "expected reference = true beside it, since others have no opinion that counts; add it."
     yield from _contradictions_of_model(declaration)
     if declaration.sampling.samples:
         if (declaration.conventions.pixel, declaration.conventions.pitch) != ("centre", "size"):

@@ -24,7 +24,8 @@ colours = "linear"          # or "srgb"
 # rounding = "truncated"    # if whole numbers are 255*x cut off, not 255*x + 0.5 cut off
 # clipped = true            # if colours above 1 are written as 1 in EXR or PFM
 # environment = {{ OMP_NUM_THREADS = "1" }}
-# family = "{name}"         # programs of one family share code, and are one opinion
+# reference = true          # only of an independent reference: what it passes confirms the truth
+# family = "{name}"         # of references: those of one family share code, and are one opinion
 
 [limits]                    # for each picture
 # seconds = 60

@@ -155,4 +155,4 @@ def test_each_kind_of_ray_may_leave_a_surface_in_its_own_way() -> None:
 
 
 def test_programs_that_declare_the_same_share_feasible_sets() -> None:
-    assert model() == model(family="other", limits={"seconds": 3})
+    assert model() == model(reference=True, family="other", limits={"seconds": 3})
