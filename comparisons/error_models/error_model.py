@@ -58,6 +58,8 @@ class ErrorModel:
     triangle_test: TriangleTest = "watertight"
     """Which formula decides whether a ray meets a triangle: the truth's own, one of triangle_tests.py, which are
     Embree's, or one of triangle_formulas.py."""
+    least_determinant: float = 0.0
+    """Of Möller and Trumbore's test of 1997: triangles with a determinant nearer to 0 than this are missed."""
     triangle_points: Literal["along the ray", "barycentric"] = "along the ray"
     """How the point is found where a ray meets a triangle: from its distance, or from its corners with the weights of
     the triangle test (hit_points.py)."""
@@ -109,6 +111,10 @@ class ErrorModel:
             raise ValueError("an image radius is not negative")
         if self.triangle_points == "barycentric" and self.triangle_test in {"watertight", "plane and inside"}:
             raise ValueError("points are interpolated with the weights of one of the tests of triangle_tests.py")
+        if self.least_determinant < 0.0 or (
+            self.least_determinant > 0.0 and self.triangle_test != "moeller-trumbore of 1997"
+        ):
+            raise ValueError("a least determinant is not negative, and one of Möller and Trumbore's test of 1997")
         if self.sphere_points == "put back" and self.triangle_points != "barycentric":
             raise ValueError("points are put back on spheres by who interpolates those on triangles")
         if self.sphere_test.startswith("from the foot") and (
@@ -174,6 +180,7 @@ class ErrorModel:
         around = f"within {self.image_radius:.3g} pixels of a pixel's centre, in x and in y"
         near = f"{self.shadow_tolerance:.3g} from the surface or the light may throw a shadow or none"
         grows = f"where rays go farther than {self.largest_extent:.4g}, least distances are so many times longer"
+        missed = f"with a determinant under {self.least_determinant:.3g} are missed"
         far = f"what is farther than {self.farthest:.4g} in a scene that has them"
         return {
             "summary": self.description,
@@ -183,6 +190,7 @@ class ErrorModel:
             "fields of view are": f"{self.field_of_view}, as they are told to it",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
             "triangles": in_code("triangle_test", self.triangle_test),
+            "triangles seen edge on": missed if self.least_determinant > 0.0 else "are met as all others",
             "points on triangles": in_code("triangle_points", self.triangle_points),
             "spheres": in_code("sphere_test", self.sphere_test),
             "points on spheres": in_code("sphere_points", self.sphere_points),

@@ -200,13 +200,18 @@ class Rays(Part):
 
 
 class Formulas(Part):
-    """By which formulas the program finds hits and splits light; `raytruth renderers --schema` names them all."""
+    """By which formulas the program finds hits and splits light; `raytruth renderers --formulas` shows their code."""
 
     sphere: Literal["quadratic", "stable quadratic", "geometric", "accurate"] = Field(
         "accurate", description="Where a ray meets a sphere."
     )
     triangle: Literal["moeller-trumbore", "cramer", "plane and inside", "watertight", "pluecker"] = Field(
         "watertight", description="Whether a ray meets a triangle."
+    )
+    least_determinant: NonNegative = Field(
+        0.0,
+        description="Triangles are missed whose determinant in Möller and Trumbore's test is nearer to 0 than this: "
+        "their EPSILON, 0.000001 in the paper.",
     )
     triangle_points: Literal["along the ray", "barycentric"] = Field(
         "along the ray", description="How the point on a triangle is found: from the distance, or from the corners."

@@ -54,7 +54,7 @@ slack_bits = 14             # left for other formulas and another order of opera
 # In float32 declare what you have typed; raytruth renderers --formulas shows the code of each.
 # sphere = "quadratic"              # or "stable quadratic", "geometric"
 # sphere_normals = "normalised"     # p - c made a unit vector, not (p - c)/r
-# triangle = "moeller-trumbore"     # or "cramer", "plane and inside", "pluecker"
+# triangle = "moeller-trumbore"     # or "cramer", "plane and inside", "pluecker"; least_determinant is its EPSILON
 # fresnel = "as specified"          # the specification's REFR-4 as it is written; or "cosines"
 # refraction = "as specified"       # REFR-2 and REFR-3 as they are written; or "heckbert", "bec"
 

@@ -115,6 +115,7 @@ precision = "float32"
         ("numbers = 'uint16'", "numbers: expected 'float' or 'half' in exr, found 'uint16'."),
         ("writes = 'png'\nclipped = false", "clipped: expected true, since whole numbers hold nothing above 1."),
         ("writes = 'hdr'\ncolours = 'srgb'", "colours: expected 'linear' in hdr, found 'srgb'."),
+        ("formulas.least_determinant = 1e-6", "formulas.least_determinant: expected the triangle test"),
         ("family = 'mine'", "family: expected reference = true beside it"),
         ("files = ['/src/*.py']", "files[0]: expected a pattern as src/**/*.py: from the folder of this file"),
         ("files = ['src/**.py']", "files[0]: expected a pattern as src/**/*.py"),
