@@ -12,7 +12,7 @@ from raytruth.comparisons.renderers.program.output_images import numbers_of
 from raytruth.scenes.wording import described
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from raytruth.comparisons.error_models.formulas import Formula
     from raytruth.comparisons.renderers.program.declaration import Declaration, Rays
@@ -44,7 +44,8 @@ KEYS = {"sphere_test": "sphere", "sphere_points": "sphere_normals", "triangle_te
 def formula_in_file(formula: Formula) -> tuple[str, str] | None:
     """Key and value that state a formula in a declaration; None for one that no file can state, or only by default."""
     key = KEYS.get(formula.field, formula.field)
-    own = {"triangle_test": TRIANGLE_TESTS, "sphere_points": SPHERE_POINTS}.get(formula.field, {})
+    names: dict[str, Mapping[str, str]] = {"triangle_test": TRIANGLE_TESTS, "sphere_points": SPHERE_POINTS}
+    own = names.get(formula.field, {})
     stated = {value: word for word, value in own.items()}
     if formula.value == "as in the truth" or (formula.value in own and formula.value not in stated):
         return None
