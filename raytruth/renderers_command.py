@@ -21,6 +21,7 @@ from raytruth.comparisons.renderers.catalogue import (
 )
 from raytruth.comparisons.renderers.program.declaration_file import DeclarationError, checked_declaration
 from raytruth.comparisons.renderers.program.declaration_schema import json_schema
+from raytruth.comparisons.renderers.program.declared_model import formula_in_file
 from raytruth.comparisons.renderers.program.starting_file import starting_text
 from raytruth.comparisons.renderers.protocol import shown_error_model, versions_in_words, why_unavailable
 from raytruth.errors import UsageError
@@ -112,12 +113,15 @@ def _start(name: str) -> Path:
 
 
 def _print_formulas(*, as_json: bool) -> None:
+    """As they are stated under [formulas] in a file, with their fields of an error model in JSON."""
+    stated = [(formula, formula_in_file(formula)) for formula in FORMULAS]
     if as_json:
-        print_json({"formulas": [asdict(formula) for formula in FORMULAS]})
+        print_json({"formulas": [{**asdict(it), "in_file": dict([line]) if line else None} for it, line in stated]})
         return
-    widths = [max(len(text) for text in column) for column in zip(*((f.field, f.value) for f in FORMULAS), strict=True)]
-    for formula in FORMULAS:
-        print(f"{formula.field:{widths[0]}}  {formula.value:{widths[1]}}  {formula.code}")
+    lines = [(f'{line[0]} = "{line[1]}"', formula.code) for formula, line in stated if line]
+    width = max(len(line) for line, _ in lines)
+    for line, code in lines:
+        print(f"{line:{width}}  {code}")
 
 
 def _clauses(record: dict[str, Any]) -> dict[str, str]:

@@ -12,7 +12,7 @@ from raytruth.reference_tracer.rendering import first_hits, prepare, primary_ray
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from raytruth.comparisons.error_models.error_model import RayOffset
+    from raytruth.comparisons.error_models.ray_offset_model import RayOffset
     from raytruth.scenes.scene import Scene
 
     Array = NDArray[np.float64]

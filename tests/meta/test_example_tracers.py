@@ -18,6 +18,9 @@ import pytest
 from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from raytruth.comparisons.judgement.exact_test import judge_image
+from raytruth.comparisons.judgement.pixel_verdict import MOST_UNJUDGED
+from raytruth.comparisons.renderers.program.declaration_file import load_declaration
+from raytruth.comparisons.renderers.program.declared_model import error_model_of_declaration
 from raytruth.reference_tracer.certified_image import certified_image
 from raytruth.scenes.exporters.json_scene import export_json
 from raytruth.scenes.features import Feature
@@ -71,6 +74,10 @@ def render(copies: Path, language: str, scene_file: Path) -> NDArray[np.float32]
     words = {"{scene}": str(scene_file), "{output}": str(output)}
     command = [words.get(word, word) for word in built(copies, language)["command"]]
     subprocess.run(command, cwd=copies / language, check=True, capture_output=True)
+    return read_pfm(output)
+
+
+def read_pfm(output: Path) -> NDArray[np.float32]:
     hints = OpenImageIO.ImageSpec()
     hints.attribute("pnm:pfmflip", 1)  # a PFM begins with its lowest row
     return np.asarray(OpenImageIO.ImageBuf(str(output), 0, 0, hints).get_pixels("float"))
@@ -116,6 +123,24 @@ def test_each_tracer_is_right_on_scenes_that_need_every_feature(copies: Path, la
         judgement = judged(copies, language, scene, export_json(scene, tmp_path))
         assert judgement.failing == 0, (scene.name, judgement.worst)
         assert judgement.unjudged == 0, scene.name
+
+
+@pytest.mark.parametrize("name", ["tracer-float32", "tracer-float32-fast", "tracer-float32-epsilon"])
+@pytest.mark.parametrize("scene_name", ["glass-sphere", "bubble-in-glass", "classical-glass"])
+def test_what_is_written_in_float32_is_judged_on_glass_and_right(
+    copies: Path, name: str, scene_name: str, tmp_path: Path
+) -> None:
+    built(copies, "cpp")
+    declaration = load_declaration(copies / "cpp" / f"{name}.toml")
+    scene = library_scene(scene_name)
+    scene_file, output = export_json(scene, tmp_path), tmp_path / "output.pfm"
+    subprocess.run([copies / "cpp" / name, scene_file, output], check=True)
+    truth = certified_image(scene)
+    feasible = feasible_set(scene, error_model_of_declaration(declaration), truth=truth)
+    judgement, _ = judge_image(read_pfm(output), truth.middle, feasible)
+    assert judgement.failing == 0, judgement.worst
+    # Where less is judged, the cell is incomparable, and tests nothing.
+    assert judgement.unjudged <= MOST_UNJUDGED * judgement.pixels
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

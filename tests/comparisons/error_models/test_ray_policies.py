@@ -10,7 +10,8 @@ import pytest
 from flint import arb
 
 from raytruth.comparisons.error_models.behaviours import behaviour_of
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.shortcuts import has_shortcuts, shortcuts_in_words, without_shortcuts
 from raytruth.comparisons.error_models.start_bounds import largest_terms
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set

@@ -17,7 +17,8 @@ import numpy as np
 
 from raytruth.comparisons.error_models.behaviours import behaviour_of
 from raytruth.comparisons.error_models.departures import NONE, Departures
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, INTERPRETED_FLOAT32
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour, merged
 from raytruth.reference_tracer.arithmetics.edits import Edit, edited
