@@ -134,7 +134,7 @@ def test_the_truth_of_rays_through_corners_is_the_cells_own(tmp_path: Path) -> N
 
 @pytest.mark.clause("VER-4")
 def test_a_declaration_that_leaves_too_much_open_is_incomparable_and_names_its_line(tmp_path: Path) -> None:
-    cell = cell_of("lesson", tmp_path, scene=room().resized(6, 5), arithmetic={"bits": 9})
+    cell = cell_of("lesson", tmp_path, scene=room().resized(4, 3), arithmetic={"bits": 9})
     assert cell.verdict == Verdict.INCOMPARABLE, cell.reason
     assert "cannot be judged" in cell.reason
     assert "; what costs most is [arithmetic]: without it" in cell.reason
