@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import subprocess
-import tomllib
 from functools import cache
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import OpenImageIO
@@ -27,9 +24,12 @@ from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.loading import load_scene
 from raytruth.scenes.requirements import required_features
+from tests.meta.example_tracers import LANGUAGES, ROOT, built, copies
 from tests.reference_tracer.small_scenes import library_scene
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from numpy.typing import NDArray
 
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
@@ -39,33 +39,9 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.clause("PRJ-8")
 
-ROOT = Path(__file__).parents[2]
-TRACERS = ROOT / "examples" / "tracers"
-TOOLS = {"cpp": "g++", "python": "python3", "javascript": "node", "java": "javac", "go": "go", "rust": "rustc"}
+__all__ = ["copies"]  # a fixture, which tests ask for by its name
+
 FLOAT64_BITS = 53
-# Set where every reference must be there (.ci/run). Of toolchains that means these, which anything here needs, too.
-REQUIRED = {"cpp", "python"} if os.environ.get("RAYTRUTH_REQUIRE_ALL") else set()
-
-
-def absent(language: str) -> pytest.MarkDecorator:
-    missing = shutil.which(TOOLS[language]) is None
-    return pytest.mark.skipif(missing and language not in REQUIRED, reason=f"{TOOLS[language]} is not installed")
-
-
-LANGUAGES = [pytest.param(language, marks=absent(language)) for language in TOOLS]
-
-
-@pytest.fixture(scope="module")
-def copies(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with a copy of all tracers, each of which is built when it is first needed."""
-    return Path(shutil.copytree(TRACERS, tmp_path_factory.mktemp("copies") / "tracers"))
-
-
-@cache
-def built(copies: Path, language: str) -> dict[str, Any]:
-    """What the tracer declares, once it is built."""
-    subprocess.run(["make", "-C", str(copies), language], check=True, capture_output=True)
-    return tomllib.loads((copies / language / "tracer.toml").read_text(encoding="utf-8"))
 
 
 def render(copies: Path, language: str, scene_file: Path) -> NDArray[np.float32]:
