@@ -24,7 +24,7 @@ from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.loading import load_scene
 from raytruth.scenes.requirements import required_features
-from tests.meta.example_tracers import LANGUAGES, ROOT, built, copies
+from tests.meta.example_tracers import LANGUAGES, ROOT, built, copies, needs
 from tests.reference_tracer.small_scenes import library_scene
 
 if TYPE_CHECKING:
@@ -101,6 +101,7 @@ def test_each_tracer_is_right_on_scenes_that_need_every_feature(copies: Path, la
         assert judgement.unjudged == 0, scene.name
 
 
+@needs("cpp")
 @pytest.mark.parametrize("name", ["tracer-float32", "tracer-float32-fast", "tracer-float32-epsilon"])
 @pytest.mark.parametrize("scene_name", ["glass-sphere", "bubble-in-glass", "classical-glass"])
 def test_what_is_written_in_float32_is_judged_on_glass_and_right(

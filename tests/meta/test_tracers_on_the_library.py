@@ -18,7 +18,7 @@ from raytruth.comparisons.renderers.program.declaration_file import load_declara
 from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.requirements import required_features
-from tests.meta.example_tracers import TOOLS, built, copies, is_here
+from tests.meta.example_tracers import TOOLS, built, copies, is_here, needs
 from tests.reference_tracer.small_scenes import library_scene
 
 if TYPE_CHECKING:
@@ -60,6 +60,7 @@ IN_TURNS = [(scene_name, IN_FLOAT32[turn % len(IN_FLOAT32)]) for turn, scene_nam
 """Each scene with one of them: three sets of each would take three times as long, and tell little more."""
 
 
+@needs("cpp")
 @pytest.mark.parametrize(("scene_name", "name"), IN_TURNS)
 def test_none_in_float32_fails(copies: Path, scene_name: str, name: str, tmp_path: Path) -> None:
     built(copies, "cpp")
