@@ -10,13 +10,11 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from raytruth.comparisons.matrix.earlier_results import damage_of
 from raytruth.comparisons.matrix.plan import Plan, plan_run
 from raytruth.comparisons.matrix.quick_suite import write_quick_suite
 from raytruth.comparisons.matrix.results_directory import only_run_in, with_metrics, write_results
-from raytruth.comparisons.matrix.run import run_plan
 from raytruth.comparisons.matrix.waivers import WaiverError, apply_waivers, load_waivers
 from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers, unusable_adapters
@@ -27,6 +25,7 @@ from raytruth.output import progress, tell
 from raytruth.programs import programs_of
 from raytruth.reports.console import print_matrix
 from raytruth.reports.wording import printable
+from raytruth.run_progress import change, intention, judged
 from raytruth.scenes.library import library_names
 from raytruth.written_report import report_files, written_report
 
@@ -107,12 +106,12 @@ def run(
     selected, required = _chosen(renderer, require, programs)
     known_failures = _waivers(waivers, programs)
     opened = _opened(scenes, out, quick=quick)
+    processes = jobs or os.cpu_count() or 1
     with only_run_in(out):
         _tell_damage(out)
-        with progress("Looking for the renderers"):
-            plan = plan_run(opened, list(selected.values()), out, fresh=fresh)
+        plan = _planned(opened, selected, out, processes, fresh=fresh)
         try:
-            cells = _run(plan, out, jobs or os.cpu_count() or 1)
+            cells = _judged_and_measured(plan, out, processes)
         except KeyboardInterrupt:
             # What is finished can be shown, and the next run goes on from there.
             cells = list(plan_run(opened, list(selected.values()), out, fresh=False).settled)
@@ -123,6 +122,31 @@ def run(
         files.write(out, strict=strict)
     _show(results, report, as_json)
     return _status(cells, _missing(required, plan), unmatched, strict=strict)
+
+
+def _planned(
+    opened: Mapping[str, Scene], selected: Mapping[str, Renderer], out: Path, jobs: int, *, fresh: bool
+) -> Plan:
+    """What the run has to do, told before the renderers are tried, and again where that changes it."""
+    foreseen: list[Plan] = []
+
+    def announce(plan: Plan) -> None:
+        foreseen.append(plan)
+        tell(f"raytruth: {intention(plan, len(opened), len(selected), jobs)}")
+
+    with progress("Looking for the renderers"):
+        plan = plan_run(opened, list(selected.values()), out, fresh=fresh, tell=announce)
+    sentence = change(foreseen[0], plan, jobs)
+    if sentence is not None:
+        tell(f"raytruth: {sentence}")
+    return plan
+
+
+def _judged_and_measured(plan: Plan, out: Path, jobs: int) -> list[Cell]:
+    """All cells of the plan, those that are settled too."""
+    cells = [*plan.settled, *judged(plan, out, jobs)]
+    with progress("Measuring global differences"):
+        return with_metrics(out, cells)
 
 
 def _written(
@@ -193,24 +217,6 @@ def _split(option: str, names: Sequence[str]) -> list[str]:
     if names and not parts:
         raise UsageError(f"{option}: expected the name of a renderer, found none; see raytruth renderers.")
     return parts
-
-
-def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:
-    """Render, judge and measure what the plan leaves to do, saying how far it has come."""
-    total = sum(len(cells) for cells in plan.by_scene.values())
-    cells = list(plan.settled)
-    console = Console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
-        task = bar.add_task("Rendering and judging", total=total)
-        for done, cell in enumerate(run_plan(plan, out, jobs), start=1):
-            cells.append(cell)
-            bar.advance(task)
-            if not console.is_terminal:
-                line = f"[{done}/{total}] {cell.scene} {cell.renderer} {cell.integrator}: {cell.verdict}"
-                tell(line)
-    with progress("Measuring global differences"):
-        return with_metrics(out, cells)
 
 
 def _command() -> str:
