@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shlex
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -25,12 +26,12 @@ from raytruth.output import progress, tell
 from raytruth.programs import programs_of
 from raytruth.reports.console import print_matrix
 from raytruth.reports.wording import printable
-from raytruth.run_progress import change, intention, judged
+from raytruth.run_progress import change, intention, judged, shown_as_they_come
 from raytruth.scenes.library import library_names
 from raytruth.written_report import report_files, written_report
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from raytruth.comparisons.matrix.waivers import Waiver
     from raytruth.comparisons.records.results import Cell, Results
@@ -98,30 +99,36 @@ def run(
     as_json
         Print the results as one JSON document instead of the table.
     """
-    if jobs is not None and jobs < 1:
-        raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
+    processes = _processes(jobs)
     expect_folder(out)
     files = report_files(junit, summary)
     programs = programs_of(renderer_command, renderer_file)
     selected, required = _chosen(renderer, require, programs)
     known_failures = _waivers(waivers, programs)
     opened = _opened(scenes, out, quick=quick)
-    processes = jobs or os.cpu_count() or 1
     with only_run_in(out):
         _tell_damage(out)
         plan = _planned(opened, selected, out, processes, fresh=fresh)
+        write = partial(_written, out, opened, selected, plan, known_failures)
         try:
-            cells = _judged_and_measured(plan, out, processes)
+            cells = _judged_and_measured(plan, out, processes, write)
         except KeyboardInterrupt:
             # What is finished can be shown, and the next run goes on from there.
             cells = list(plan_run(opened, list(selected.values()), out, fresh=False).settled)
-            _written(out, opened, selected, plan, cells, known_failures)
+            write(cells)
             raise
-        results, cells, unmatched = _written(out, opened, selected, plan, cells, known_failures)
+        results, cells, unmatched = write(cells)
         report = written_report(out, unless_current=True)
         files.write(out, strict=strict)
     _show(results, report, as_json)
     return _status(cells, _missing(required, plan), unmatched, strict=strict)
+
+
+def _processes(jobs: int | None) -> int:
+    """How many work side by side. Raises UsageError for none."""
+    if jobs is not None and jobs < 1:
+        raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
+    return jobs or os.cpu_count() or 1
 
 
 def _planned(
@@ -142,9 +149,14 @@ def _planned(
     return plan
 
 
-def _judged_and_measured(plan: Plan, out: Path, jobs: int) -> list[Cell]:
-    """All cells of the plan, those that are settled too."""
-    cells = [*plan.settled, *judged(plan, out, jobs)]
+def _judged_and_measured(plan: Plan, out: Path, jobs: int, write: Callable[[Sequence[Cell]], object]) -> list[Cell]:
+    """All cells of the plan, those that are settled too; what there is is written and shown while the run goes on."""
+
+    def show(cells: Sequence[Cell]) -> None:
+        write(cells)
+        written_report(out)
+
+    cells = shown_as_they_come(plan.settled, judged(plan, out, jobs), show)
     with progress("Measuring global differences"):
         return with_metrics(out, cells)
 
@@ -154,8 +166,8 @@ def _written(
     opened: Mapping[str, Scene],
     selected: Mapping[str, Renderer],
     plan: Plan,
-    cells: Sequence[Cell],
     known_failures: Sequence[Waiver],
+    cells: Sequence[Cell],
 ) -> tuple[Results, list[Cell], list[str]]:
     """The results as they are written, this run's cells as they are waived, and what is told of unmatched waivers."""
     waived, unmatched = apply_waivers(known_failures, cells, plan.versions, opened.values())

@@ -14,7 +14,7 @@ from raytruth.comparisons.records.results import Verdict
 from raytruth.output import tell
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
     from pathlib import Path
 
     from raytruth.comparisons.matrix.plan import Plan
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 # In a log a line tells what is left, this often: seldom beside the lines of cells, often enough to see that it goes on.
 SECONDS_BETWEEN_LINES = 30.0
+# A report of the whole library takes some ten seconds: it is made anew while the run goes on, but not at its cost.
+SHARE_FOR_REPORTS = 0.05
 
 
 def intention(plan: Plan, scenes: int, renderers: int, jobs: int) -> str:
@@ -51,10 +53,11 @@ def judged(plan: Plan, out: Path, jobs: int) -> Iterator[Cell]:
     total = len(plan.cells)
     console = Console(stderr=True)
     left = TextColumn("{task.fields[left]}")
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), left)
+    # All of it has room on a terminal of 80 columns.
+    columns = (TextColumn("{task.description}"), BarColumn(20), MofNCompleteColumn(), TimeElapsedColumn(), left)
     told = time.monotonic()
     with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
-        task = bar.add_task("Rendering and judging", total=total, left=_left(forecast.seconds_left))
+        task = bar.add_task("Judging", total=total, left=_left(forecast.seconds_left))
         for done, cell in enumerate(run_plan(plan, out, jobs, forecast), start=1):
             yield cell
             words = _left(forecast.seconds_left)
@@ -66,6 +69,21 @@ def judged(plan: Plan, out: Path, jobs: int) -> Iterator[Cell]:
                 tell(f"raytruth: {words}")
     if total:
         forecast.pace.keep()
+
+
+def shown_as_they_come(
+    settled: Iterable[Cell], cells: Iterable[Cell], show: Callable[[Sequence[Cell]], None]
+) -> list[Cell]:
+    """All of them; now and then `show` is given those that there are by then."""
+    so_far = list(settled)
+    start, spent = time.monotonic(), 0.0
+    for cell in cells:
+        so_far.append(cell)
+        before = time.monotonic()
+        if before - start > SECONDS_BETWEEN_LINES + spent / SHARE_FOR_REPORTS:
+            show(so_far)
+            spent += time.monotonic() - before
+    return so_far
 
 
 def _takes(plan: Plan, jobs: int) -> str:

@@ -7,15 +7,19 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from raytruth import run_progress
 from raytruth.comparisons.matrix import run as matrix_run
 from raytruth.comparisons.renderers import catalogue
 from raytruth.run_progress import in_words
-from tests.comparisons.matrix.pretending import Pretender
+from tests.comparisons.matrix.pretending import Pretender, truthful
 from tests.comparisons.matrix.scene_files import scene_file
 from tests.raytruth.running import run
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from raytruth.comparisons.records.renderings import Rendering
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("RES-6")
 
@@ -78,6 +82,23 @@ def test_a_program_that_reads_the_results_finds_nothing_else(
     assert status == 0
     assert len(json.loads(out)["cells"]) == 2
     assert "2 cells to judge" in err
+
+
+def test_the_report_is_there_before_all_cells_are(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, renderers: dict[str, Pretender], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run_progress, "SECONDS_BETWEEN_LINES", 0.0)
+    monkeypatch.setattr(run_progress, "SHARE_FOR_REPORTS", float("inf"))
+    found = []
+
+    def looking(scene: Scene, folder: Path) -> Rendering:
+        found.append((tmp_path / "results" / "report.html").exists())
+        return truthful(scene, folder)
+
+    renderers["one"].answer = renderers["two"].answer = looking
+    scenes = [scene_file(tmp_path, name) for name in ("small", "another")]
+    assert run(capsys, "run", *scenes, "--jobs", "1")[0] == 0
+    assert found == [False, False, True, True]
 
 
 @pytest.mark.parametrize(
