@@ -32,6 +32,8 @@ TRUTH = 1.0e-4
 # Behind glass rays become two at each surface, and rounding needs linked balls.
 FEASIBLE_SET = 1.0e-4
 FEASIBLE_SET_BEHIND_GLASS = 4.0e-4
+# How many seconds of estimated work the measurement goes back: those of a first run of the library, which is most work.
+REMEMBERED = 1500.0
 
 
 def truth_seconds(cells: Sequence[PlannedCell]) -> float:
@@ -87,8 +89,9 @@ class Pace:
         return estimated * self.measured / self.estimated
 
     def keep(self) -> None:
-        """For the next run; halved, so that what comes then counts more than what is long ago."""
-        text = f"{self.estimated / 2} {self.measured / 2}\n"
+        """For the next runs; of what is long ago less and less counts, and of a short run little."""
+        share = min(1.0, REMEMBERED / self.estimated)
+        text = f"{self.estimated * share} {self.measured * share}\n"
         keep(_pace_file(), lambda file: file.write_text(text, encoding="utf-8"))
 
 

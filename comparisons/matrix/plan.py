@@ -68,7 +68,7 @@ def plan_run(
     plan = _plan(scenes, renderers, foreseen, directory, fresh=fresh)
     tell(plan)
     at_work = {cell.place.renderer.name for cell in plan.cells}
-    needless = set() if fresh else kept.keys() - at_work
+    needless: set[str] = set() if fresh else kept.keys() - at_work
     tried = _tried([renderer for renderer in renderers if renderer.name not in needless])
     versions: dict[str, str | None] = {**kept, **tried}
     return plan if versions == foreseen else _plan(scenes, renderers, versions, directory, fresh=fresh)

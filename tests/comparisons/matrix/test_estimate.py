@@ -42,9 +42,16 @@ def test_what_was_measured_corrects_the_estimate_and_is_kept_for_the_next_run() 
     assert 10 < pace.seconds(100) < 15
     pace.keep()
     assert kept_pace().seconds(100) == pytest.approx(pace.seconds(100))
-    later = kept_pace()
-    later.note(2000, 4000)
-    assert later.seconds(100) > 100
+
+
+@pytest.mark.usefixtures("pretender")
+def test_a_short_run_changes_little_and_a_long_one_much() -> None:
+    Pace(estimated=1e6, measured=1e6).keep()
+    short, long = kept_pace(), kept_pace()
+    short.note(3, 300)
+    long.note(3000, 300_000)
+    assert short.seconds(100) < 130
+    assert long.seconds(100) > 5000
 
 
 @pytest.mark.usefixtures("pretender")
