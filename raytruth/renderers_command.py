@@ -27,11 +27,14 @@ from raytruth.comparisons.renderers.protocol import shown_error_model, versions_
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time
 from raytruth.output import print_json, progress, say, tell
+from raytruth.probe_command import probe as tell_declaration
 from raytruth.programs import programs_of
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from raytruth.comparisons.renderers.protocol import Renderer
 
 
@@ -41,8 +44,9 @@ def renderers(
     init: Annotated[str | None, Parameter(show_default=False)] = None,
     schema: Annotated[bool, Parameter(negative="")] = False,
     formulas: Annotated[bool, Parameter(negative="")] = False,
+    probe: Annotated[Path | None, Parameter(show_default=False)] = None,
     as_json: AsJson = False,
-) -> None:
+) -> int:
     """Show who can render here, what each can do, and how to install the rest.
 
     Parameters
@@ -57,18 +61,26 @@ def renderers(
         Print the JSON Schema that such files obey, and nothing else.
     formulas
         List the formulas that a renderer can declare, with a line of code each, and nothing else.
+    probe
+        Render the quick suite with the program that this TOML file declares, and tell the tightest declaration of bits
+        and ray offset under which it passes, with the pixel that decides; nothing else.
     as_json
         Print one JSON document instead of text.
     """
     if schema:
         print_json(json_schema())
-        return
-    if formulas:
+    elif formulas:
         _print_formulas(as_json=as_json)
-        return
-    if init is not None:
+    elif init is not None:
         say(f"Wrote {_start(init)}; edit it, then: raytruth run --quick --renderer-file {init}.toml")
-        return
+    elif probe is not None:
+        return tell_declaration(probe, as_json=as_json)
+    else:
+        _show(names, renderer_file, as_json=as_json)
+    return 0
+
+
+def _show(names: Sequence[str], renderer_file: Sequence[Path], *, as_json: bool) -> None:
     for sentence in unusable_adapters():
         tell(f"raytruth: {sentence}")
     programs = programs_of((), renderer_file)
