@@ -118,7 +118,7 @@ def _seconds_each(evaluate: Callable[[int, int], object], pixels: Sequence[tuple
 def document(costs: Sequence[Cost], rounds: int) -> dict[str, Any]:
     """What `--json` prints."""
     return {
-        "machine": {**machine(), **{name: version(name) for name in ("python-flint", "numba")}},
+        "machine": {**machine(), **{name: version(name) for name in ("python-flint", "llvmlite")}},
         "ratios": [asdict(cost) for cost in costs],
         "date": datetime.now(UTC).date().isoformat(),
         "rounds": rounds,

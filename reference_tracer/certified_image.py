@@ -46,6 +46,7 @@ TRUTH_ROOMS = (
     "scenes",
     "reference_tracer",
     "reference_tracer/arithmetics",
+    "reference_tracer/compiler",
     "reference_tracer/source",
     "reference_tracer/storage",
 )

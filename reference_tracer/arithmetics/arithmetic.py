@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
-from raytruth.reference_tracer.arithmetics.compilation import compiled_module, compiled_text
+from raytruth.reference_tracer.arithmetics.compilation import kernel_program
 from raytruth.reference_tracer.arithmetics.instantiation import COMPILED_ENTRY_POINTS, ENTRY_POINTS, kernel_source
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 
@@ -96,17 +96,18 @@ INTERPRETED_FLOAT32 = Arithmetic(
 
 
 class Namespace:
-    """A kernel that is not compiled: its functions as attributes."""
+    """A kernel: its functions as attributes."""
 
-    def __init__(self, names: dict[str, Any]) -> None:
-        self.__dict__ = names
+    def __init__(self, names: Mapping[str, Any]) -> None:
+        self.__dict__.update(names)
 
 
 def make_kernel(arithmetic: Arithmetic, features: Collection[str], behaviour: Behaviour = IDEAL) -> Kernel:
     """The tracer for one number type, with these features and no others, and with this behaviour.
 
     Raises what `kernel_source` raises; ValueError also for a constant with the name of one of the arithmetic's
-    functions; TypeError for a list of numbers in a kernel that is compiled.
+    functions; TypeError for a list of numbers in a kernel that is compiled, and NotCompilableError for a function in it
+    that the compiler does not know.
     """
     taken = behaviour.constants.keys() & arithmetic.functions.keys()
     if taken:
@@ -122,9 +123,8 @@ def make_kernel(arithmetic: Arithmetic, features: Collection[str], behaviour: Be
         guarded_divisions=arithmetic.guarded_divisions,
     )
     if arithmetic.compiled:
-        number_type = np.dtype(type(arithmetic.number(0.0))).name
         numbers = {**literals, **{name: float(value) for name, value in behaviour.constants.items()}}
-        return cast("Kernel", compiled_module(compiled_text(source, numbers, number_type)))
+        return cast("Kernel", Namespace(kernel_program(source, numbers, type(arithmetic.number(0.0))).compiled()))
     names: dict[str, Any] = {"float": arithmetic.number}
     with arithmetic.in_force():
         names.update({name: arithmetic.number(value) for name, value in literals.items()})

@@ -26,7 +26,16 @@ if TYPE_CHECKING:
     from tests.mutation.mutants import Mutant
 
 # What the tests of physics import from others, and takes long.
-LIBRARIES = ("numba", "numpy", "flint", "mpmath", "hypothesis.extra.numpy", "pydantic", "scipy.optimize", "OpenImageIO")
+LIBRARIES = (
+    "llvmlite.binding",
+    "numpy",
+    "flint",
+    "mpmath",
+    "hypothesis.extra.numpy",
+    "pydantic",
+    "scipy.optimize",
+    "OpenImageIO",
+)
 COPIED = (*FOLDERS, "docs", "tests")
 # Tests of the physics; those of arithmetics, of kernels and of what is kept would find little more.
 TEST_FOLDERS = ("reference_tracer", "properties", "extremes", "second_opinion")
@@ -36,7 +45,6 @@ NOT_ABOUT_PHYSICS = {
     "test_bounding_volume_tree.py",
     "test_certification.py",
     "test_certified_image.py",
-    "test_compiled_stack.py",
     "test_features.py",
     "test_instantiation.py",
     "test_linked_arithmetic.py",
@@ -155,9 +163,9 @@ class _Watch:
         items.sort(key=lambda item: self.durations.get(item.nodeid, 0.0))
 
     def pytest_collection_finish(self) -> None:
-        """Tests that compile are skipped: other ones run the same source interpreted, and a kernel takes seconds."""
+        """Tests that compile are skipped: other ones run the same source interpreted, and a kernel takes a second."""
         arithmetic = importlib.import_module("raytruth.reference_tracer.arithmetics.arithmetic")
-        vars(arithmetic)["compiled_module"] = lambda _text: pytest.skip("not compiled for each mutant")
+        vars(arithmetic)["kernel_program"] = lambda *_: pytest.skip("not compiled for each mutant")
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_call(self, item: pytest.Item) -> Generator[None, Any, Any]:

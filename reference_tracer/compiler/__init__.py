@@ -1,0 +1,1 @@
+"""From typed Python functions to machine code: types, typed tree, lowering to LLVM's IR, object files, calls."""
