@@ -96,10 +96,12 @@ INTERPRETED_FLOAT32 = Arithmetic(
 
 
 class Namespace:
-    """A kernel: its functions as attributes."""
+    """A kernel: its functions as attributes, in the dictionary where they look for one another, so that setting an
+    attribute replaces a function for all.
+    """
 
-    def __init__(self, names: Mapping[str, Any]) -> None:
-        self.__dict__.update(names)
+    def __init__(self, names: dict[str, Any]) -> None:
+        self.__dict__ = names
 
 
 def make_kernel(arithmetic: Arithmetic, features: Collection[str], behaviour: Behaviour = IDEAL) -> Kernel:
