@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
-from raytruth.reference_tracer.arithmetics.compilation import kernel_program
+from raytruth.reference_tracer.arithmetics.compilation import image_entry_points, kernel_program
 from raytruth.reference_tracer.arithmetics.instantiation import COMPILED_ENTRY_POINTS, ENTRY_POINTS, kernel_source
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
     from contextlib import AbstractContextManager
+    from types import FunctionType
 
     from numpy.typing import NDArray
 
@@ -43,12 +44,19 @@ class Arithmetic:
     process, floats have their own."""
     guarded_divisions: bool = False
     """A division by zero calls the function `over_zero`, for numbers that raise an error there."""
+    operations: Mapping[str, FunctionType] = field(default_factory=dict)
+    """In compiled code, what operators do to numbers that are NamedTuples of floats: functions, plain ones with types,
+    by the operators' names in Python's module `operator`."""
 
     def numbers(self, values: NDArray[np.float64]) -> Any:
-        """One-dimensional values as numbers of this type: an array for compiled code, else a list, which is quicker."""
-        if self.compiled:
-            return np.ascontiguousarray(values, dtype=type(self.number(0.0)))
-        return [self.number(value) for value in values.tolist()]
+        """One-dimensional values as numbers of this type: an array for compiled code, else a list, which is quicker.
+
+        Numbers that are tuples are the rows of an array.
+        """
+        if self.compiled and not self._parts:
+            return np.ascontiguousarray(values, dtype=self._dtype)
+        numbers = [self.number(value) for value in values.tolist()]
+        return np.array(numbers, dtype=self._dtype).reshape(len(numbers), *self._parts) if self.compiled else numbers
 
     def integers(self, values: NDArray[np.int64]) -> Any:
         """One-dimensional values as integers for kernels: an array for compiled code, else a list, which is quicker."""
@@ -56,7 +64,16 @@ class Arithmetic:
 
     def image(self, *shape: int) -> NDArray[Any]:
         """An array of zeros of this shape, which holds results of this number type."""
-        return np.zeros(shape, dtype=type(self.number(0.0)) if self.compiled else object)
+        return np.zeros((*shape, *self._parts), dtype=self._dtype) if self.compiled else np.zeros(shape, dtype=object)
+
+    @property
+    def _dtype(self) -> Any:
+        return np.asarray(self.number(0.0)).dtype
+
+    @property
+    def _parts(self) -> tuple[int, ...]:
+        """Of how many floats a number is in arrays; empty for one that is no tuple."""
+        return np.shape(self.number(0.0))
 
 
 KERNEL_FILE = "<kernel"
@@ -120,13 +137,14 @@ def make_kernel(arithmetic: Arithmetic, features: Collection[str], behaviour: Be
         # A behaviour may replace what has a plain form, too.
         replace(behaviour, functions={**forms, **behaviour.functions}),
         entry_points=COMPILED_ENTRY_POINTS if arithmetic.compiled else ENTRY_POINTS,
-        decided_comparisons=arithmetic.decided_comparisons,
+        decided_comparisons=arithmetic.decided_comparisons and not arithmetic.compiled,
         rounded_operations=arithmetic.rounded_operations,
         guarded_divisions=arithmetic.guarded_divisions,
     )
     if arithmetic.compiled:
         numbers = {**literals, **{name: float(value) for name, value in behaviour.constants.items()}}
-        return cast("Kernel", Namespace(kernel_program(source, numbers, type(arithmetic.number(0.0))).compiled()))
+        program = kernel_program(source, numbers, arithmetic, image_entry_points(arithmetic))
+        return cast("Kernel", Namespace(program.compiled()))
     names: dict[str, Any] = {"float": arithmetic.number}
     with arithmetic.in_force():
         names.update({name: arithmetic.number(value) for name, value in literals.items()})

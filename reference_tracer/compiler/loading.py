@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from llvmlite import binding
 
-from raytruth.reference_tracer.compiler.lowering import STACK_IS_FULL
 from raytruth.reference_tracer.compiler.machine_code import target_machine
 from raytruth.reference_tracer.compiler.machine_operations import LIBRARY, LIBRARY_PREFIX
+from raytruth.reference_tracer.compiler.questions import STACK_IS_FULL, UNDECIDED, UndecidedError
 from raytruth.reference_tracer.compiler.types import Array, Boolean, Float, Integer, Tuple, Type, shown
 
 if TYPE_CHECKING:
@@ -60,11 +60,18 @@ class _Function:
         self.function = ctypes.CFUNCTYPE(ctypes.c_int64, *arguments)(linked[name])
 
     def __call__(self, *arguments: Any) -> None:
-        """Run it. Raises TypeError for arguments that it does not take; MemoryError where a stack had no room."""
+        """Run it. Raises TypeError for arguments that it does not take.
+
+        Raises MemoryError where a stack had no room, and UndecidedError where a comparison was undecided, unless the
+        function has taken the marks of it.
+        """
         passed = [leaf for pair in zip(self.kinds, arguments, strict=True) for leaf in _leaves_of(*pair)]
         _require_subnormal_numbers(sys.float_info.min)
-        if self.function(*passed) & STACK_IS_FULL:
+        marks = self.function(*passed)
+        if marks & STACK_IS_FULL:
             raise MemoryError("the ray tree is deeper than any scene allows")
+        if marks & UNDECIDED:
+            raise UndecidedError("a comparison is undecided, and the function has not asked whether")
 
 
 def _require_subnormal_numbers(smallest_normal: float) -> None:

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from llvmlite import ir
 
-from raytruth.reference_tracer.compiler.machine_operations import INTEGER, machine_type, operation, reserved
+from raytruth.reference_tracer.compiler.machine_operations import BOOLEAN, INTEGER, machine_type, operation, reserved
+from raytruth.reference_tracer.compiler.questions import UNDECIDED
 from raytruth.reference_tracer.compiler.types import Float, Stack, Tuple, leaves, part_leaves
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
         Part,
         PartAt,
         Pop,
+        Question,
         TypedFunction,
     )
 
@@ -43,10 +45,10 @@ class ExpressionLowering:
     """Lowers the expressions of one function, at the place where its builder stands."""
 
     def __init__(
-        self, builder: Any, entry: Any, variables: dict[str, list[Any]], flags: Any, functions: Functions
+        self, builder: Any, entry: Any, variables: dict[str, list[Any]], marks: Any, functions: Functions
     ) -> None:
         self.builder, self.entry, self.variables = builder, entry, variables
-        self.flags, self.functions = flags, functions
+        self.marks, self.functions = marks, functions
 
     def leaves(self, expression: Expression) -> list[Any]:
         """The leaves of the expression's value."""
@@ -70,6 +72,19 @@ class ExpressionLowering:
             for place, leaf in zip(places, leaves(expression.type), strict=True)
         ]
 
+    def mark(self, mark: int) -> None:
+        """Set a mark of the call."""
+        marks = self.builder.load(self.marks, typ=INTEGER)
+        self.builder.store(self.builder.or_(marks, ir.Constant(INTEGER, mark)), self.marks)
+
+    def _question(self, expression: Question) -> list[Any]:
+        if expression.name == "undecided":
+            self.mark(UNDECIDED)
+            return [ir.Constant(BOOLEAN, 1)]
+        marks = self.builder.load(self.marks, typ=INTEGER)
+        self.builder.store(ir.Constant(INTEGER, 0), self.marks)
+        return [marks]
+
     def _operation(self, expression: Operation) -> list[Any]:
         first = expression.operands[0]
         operands = [leaf for operand in expression.operands for leaf in self.leaves(operand)]
@@ -82,7 +97,7 @@ class ExpressionLowering:
 
     def _call(self, expression: Call) -> list[Any]:
         arguments = [leaf for argument in expression.arguments for leaf in self.leaves(argument)]
-        whole = self.builder.call(self.functions.function(expression.function), [self.flags, *arguments])
+        whole = self.builder.call(self.functions.function(expression.function), [self.marks, *arguments])
         return [self.builder.extract_value(whole, place) for place in range(len(leaves(expression.type)))]
 
     def _build(self, expression: Build) -> list[Any]:

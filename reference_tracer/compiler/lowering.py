@@ -1,8 +1,8 @@
 """From typed functions to LLVM's IR: each becomes a function of the machine's, and so does what it calls.
 
 A value is a list of its leaves (types.py). Variables lie on the machine's stack, from where LLVM takes them into
-registers. Every function has one parameter more than its source: a pointer to the flags of the call, by which code deep
-inside tells the caller that something went wrong.
+registers. Every function has one parameter more than its source: a pointer to the marks of the call (questions.py), by
+which code deep inside tells the caller what has happened.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from llvmlite import ir
 
 from raytruth.reference_tracer.compiler.lowered_expressions import ExpressionLowering
 from raytruth.reference_tracer.compiler.machine_operations import INTEGER, POINTER, machine_type, reserved
+from raytruth.reference_tracer.compiler.questions import STACK_IS_FULL
 from raytruth.reference_tracer.compiler.types import leaves
 
 if TYPE_CHECKING:
@@ -29,14 +30,11 @@ if TYPE_CHECKING:
         While,
     )
 
-STACK_IS_FULL = 1
-"""A flag: an element was put on a stack that has no room for it, and is lost."""
-
 
 def lowered_module(entry_points: list[TypedFunction], capacity: int) -> str:
     """The IR of a module in which these functions can be called from outside; stacks hold `capacity` elements.
 
-    They take their arguments leaf by leaf, return nothing to the source, and to the caller the flags.
+    They take their arguments leaf by leaf, return nothing to the source, and to the caller the marks.
     """
     lowering = _ModuleLowering(capacity)
     for entry_point in entry_points:
@@ -55,10 +53,10 @@ class _ModuleLowering:
         parameters = lowered.function_type.args[1:]
         outside: Any = ir.Function(self.module, ir.FunctionType(INTEGER, parameters), function.name)
         builder: Any = ir.IRBuilder(outside.append_basic_block())
-        flags = reserved(builder, INTEGER)
-        builder.store(ir.Constant(INTEGER, 0), flags)
-        builder.call(lowered, [flags, *outside.args])
-        builder.ret(builder.load(flags, typ=INTEGER))
+        marks = reserved(builder, INTEGER)
+        builder.store(ir.Constant(INTEGER, 0), marks)
+        builder.call(lowered, [marks, *outside.args])
+        builder.ret(builder.load(marks, typ=INTEGER))
 
     def function(self, function: TypedFunction) -> Any:
         """The machine's function; made once."""
@@ -83,12 +81,12 @@ class _FunctionLowering:
         self.entry: Any = ir.IRBuilder(lowered.append_basic_block("entry"))
         self.builder: Any = ir.IRBuilder(lowered.append_basic_block("body"))
         self.lowered = lowered
-        self.flags = lowered.args[0]
+        self.marks = lowered.args[0]
         self.variables = {
             name: [self._variable(machine_type(leaf)) for leaf in leaves(kind)]
             for name, kind in function.variables.items()
         }
-        self.expressions = ExpressionLowering(self.builder, self.entry, self.variables, self.flags, module)
+        self.expressions = ExpressionLowering(self.builder, self.entry, self.variables, self.marks, module)
 
     def lower(self) -> None:
         arguments = iter(self.lowered.args[1:])
@@ -137,8 +135,7 @@ class _FunctionLowering:
                 self.expressions.store_element(elements, height, value)
                 self.builder.store(self.builder.add(height, ir.Constant(INTEGER, 1)), height_place)
             with if_false:
-                flags = self.builder.load(self.flags, typ=INTEGER)
-                self.builder.store(self.builder.or_(flags, ir.Constant(INTEGER, STACK_IS_FULL)), self.flags)
+                self.expressions.mark(STACK_IS_FULL)
 
     def _evaluate(self, statement: Evaluate) -> None:
         self.expressions.leaves(statement.value)

@@ -59,6 +59,8 @@ def _of_floats(builder: Any, name: str, operands: Sequence[Any], kind: Float) ->
     if name in {"max", "min"}:  # Python's: the first of two, unless the second is beyond it
         first, second = operands
         return builder.select(builder.fcmp_ordered(">" if name == "max" else "<", second, first), second, first)
+    if name == "isnan":
+        return builder.fcmp_unordered("uno", operands[0], operands[0])
     if name == "floor":
         return _floor(builder, operands[0], kind)
     function = _library_function if name in LIBRARY else _intrinsic

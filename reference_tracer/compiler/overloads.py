@@ -38,6 +38,7 @@ FUNCTIONS: dict[Any, str] = {
     math.exp: "exp",
     math.fabs: "fabs",
     math.floor: "floor",
+    math.isnan: "isnan",
     math.sqrt: "sqrt",
     math.tan: "tan",
     np.float32: "float32",
@@ -63,6 +64,9 @@ def applied(
 
     Raises OperandsError.
     """
+    if name in {"max", "min"} and len(operands) > 2:
+        *others, last = operands
+        return applied(name, [applied(name, others, table, call), last], table, call)
     if any(isinstance(operand.type, Tuple) for operand in operands):
         return _of_the_table(name, operands, table, call)
     if name in CONVERSIONS and len(operands) == 1:
@@ -100,8 +104,8 @@ def _machine_operation(name: str, operands: Sequence[Expression], kinds: list[Ty
         operation = NARROWED.get(name, name)
         if operation in COMPARISONS and len(kinds) == 2:
             return Operation(operation, tuple(operands), Boolean())
-        if operation in {"floor"}:
-            return Operation(operation, tuple(operands), Integer())
+        if operation in {"floor", "isnan"} and len(kinds) == 1:
+            return Operation(operation, tuple(operands), Integer() if operation == "floor" else Boolean())
         if operation in OF_FLOATS | {"max", "min"} and _fits(operation, len(kinds)):
             return Operation(operation, tuple(operands), kind)
     if isinstance(kind, Integer):
@@ -116,7 +120,7 @@ def _machine_operation(name: str, operands: Sequence[Expression], kinds: list[Ty
 
 
 def _fits(name: str, count: int) -> bool:
-    return count == (1 if name in {"neg", "sqrt", "exp", "tan", "fabs", "floor"} else 2)
+    return count == (1 if name in {"neg", "sqrt", "exp", "tan", "fabs"} else 2)
 
 
 def _refuse_zero(name: str, operands: Sequence[Expression]) -> None:

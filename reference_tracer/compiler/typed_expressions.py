@@ -15,6 +15,7 @@ from raytruth.reference_tracer.compiler.overloads import (
     operator_name,
     truth,
 )
+from raytruth.reference_tracer.compiler.questions import marks_taken, undecided
 from raytruth.reference_tracer.compiler.typed_tree import (
     Build,
     Call,
@@ -27,14 +28,16 @@ from raytruth.reference_tracer.compiler.typed_tree import (
     Part,
     PartAt,
     Pop,
+    Question,
 )
-from raytruth.reference_tracer.compiler.types import Array, Boolean, Float, Integer, Stack, Tuple, Type, shown
+from raytruth.reference_tracer.compiler.types import Array, Boolean, Float, Integer, Stack, Tuple, Type, shown, type_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from raytruth.reference_tracer.compiler.typed_tree import TypedFunction
 
+QUESTIONS: dict[Any, Type] = {undecided: Boolean(), marks_taken: Integer()}
 UNKNOWN = "the compiler does not know this"
 
 
@@ -173,6 +176,8 @@ class ExpressionTyper:
         if isinstance(function, type) and hasattr(function, "_fields"):
             kind = Tuple(tuple(argument.type for argument in arguments), function._fields, function.__name__)
             return Build(tuple(arguments), kind)
+        if function in QUESTIONS and not arguments:
+            return Question(function.__name__, QUESTIONS[function])
         if callable(function) and function in FUNCTIONS:
             return self._applied(FUNCTIONS[function], arguments)
         if isinstance(function, FunctionType):
@@ -201,11 +206,9 @@ class ExpressionTyper:
 
     def _of_value(self, value: Any, node: ast.AST) -> Expression:
         """A constant: a number, a truth value, or a NamedTuple of such."""
-        if isinstance(value, tuple) and hasattr(value, "_fields"):
-            return self.called(type(value), [self._of_value(part, node) for part in value], node)
-        for python, kind in ((bool, Boolean()), (int, Integer()), (float, Float(64))):
-            if isinstance(value, python):
-                return Constant(python(value), kind)
-        if type(value).__name__ == "float32":
-            return Constant(float(value), Float(32))
-        raise self.function.error(node, UNKNOWN)
+        kind = type_of(value)
+        if kind is None:
+            raise self.function.error(node, UNKNOWN)
+        if isinstance(kind, Tuple):
+            return Build(tuple(self._of_value(part, node) for part in value), kind)
+        return Constant(float(value) if isinstance(kind, Float) else value, kind)

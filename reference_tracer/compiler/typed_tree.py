@@ -38,6 +38,14 @@ class Operation:
 
 
 @dataclass(frozen=True)
+class Question:
+    """What a function of questions.py gives, by its name."""
+
+    name: str
+    type: Type
+
+
+@dataclass(frozen=True)
 class Call:
     """A function's value for some arguments."""
 
@@ -99,7 +107,9 @@ class Pop:
     type: Type
 
 
-Expression: TypeAlias = "Constant | Local | Operation | Call | Build | Part | PartAt | Element | Conditional | Pop"
+Expression: TypeAlias = (
+    "Constant | Local | Operation | Call | Build | Part | PartAt | Element | Conditional | Pop | Question"
+)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,9 @@ types are left then, the *leaves*.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
+
+import numpy as np
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,20 @@ def part_leaves(kind: Tuple, place: int) -> slice:
     """Which of a tuple's leaves are those of one of its parts."""
     start = sum(len(leaves(part)) for part in kind.parts[:place])
     return slice(start, start + len(leaves(kind.parts[place])))
+
+
+def type_of(value: Any) -> Type | None:
+    """The type of a constant of Python's or NumPy's; None for what compiled code cannot hold."""
+    if isinstance(value, tuple) and hasattr(value, "_fields"):
+        parts = [type_of(part) for part in value]
+        known = tuple(part for part in parts if part is not None)
+        return Tuple(known, value._fields, type(value).__name__) if len(known) == len(parts) else None
+    if isinstance(value, np.float32):
+        return Float(32)
+    for python, kind in ((bool, Boolean()), (int, Integer()), (float, Float(64))):
+        if isinstance(value, python):
+            return kind
+    return None
 
 
 def shown(kind: Type) -> str:

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from flint import arb
 
-from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT64, make_kernel, over_zero
+from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, FLOAT32, FLOAT64, Arithmetic, make_kernel, over_zero
 from raytruth.reference_tracer.arithmetics.balls import Decisions, ball_arithmetic, every_outcome
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
-from raytruth.reference_tracer.arithmetics.compilation import kernel_program
+from raytruth.reference_tracer.arithmetics.compilation import image_entry_points, kernel_program
 from raytruth.reference_tracer.arithmetics.instantiation import COMPILED_ENTRY_POINTS, kernel_source
 from raytruth.reference_tracer.rendering import first_hits, prepare, render
 from raytruth.scenes.features import Feature
@@ -187,11 +187,15 @@ def test_arithmetic_in_float64_would_be_noticed(line: str) -> None:
 
 
 def test_a_kernel_in_float32_of_all_features_does_no_arithmetic_in_float64() -> None:
-    source, literals = kernel_source(set(Feature), entry_points=COMPILED_ENTRY_POINTS)
-    lines = kernel_program(source, literals, np.float32).ir_text().splitlines()
+    lines, of_float64 = (all_features(arithmetic).splitlines() for arithmetic in (FLOAT32, FLOAT64))
     assert any("fmul float" in line for line in lines)
     assert [line for line in lines if DOUBLE.search(line)] == []
-    assert any(DOUBLE.search(line) for line in kernel_program(source, literals, np.float64).ir_text().splitlines())
+    assert any(DOUBLE.search(line) for line in of_float64)
+
+
+def all_features(arithmetic: Arithmetic) -> str:
+    source, literals = kernel_source(set(Feature), entry_points=COMPILED_ENTRY_POINTS)
+    return kernel_program(source, literals, arithmetic, image_entry_points(arithmetic)).ir_text()
 
 
 QUOTIENTS = [0.0, -0.0, 1.5, -2.0, math.inf, -math.inf, math.nan]
