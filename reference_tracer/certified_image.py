@@ -10,7 +10,7 @@ import gc
 import hashlib
 import json
 import zipfile
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any
@@ -112,7 +112,7 @@ def certified_image(
     bands = _bands(scene, camera_rays)
     images = {} if fresh else {band: image for band in bands if (image := _read(band)) is not None}
     missing = [band for band in bands if band not in images]
-    for band, image in _side_by_side(_certified_band, [(band,) for band in missing], jobs):
+    for band, image in _certified_bands(missing, jobs):
         images[band] = image
         if progress is not None:
             progress(len(images), len(bands))
@@ -172,18 +172,36 @@ def _side_by_side(
             pool.shutdown(cancel_futures=True)
 
 
-def _certified_band(band: _Band) -> CertifiedImage:
+def _certified_bands(bands: Sequence[_Band], jobs: int) -> Iterator[tuple[_Band, CertifiedImage]]:
+    """The bands as they are finished: those that compiled balls prove first, then those that need Arb's."""
+    unfinished: list[Work] = []
+    for band, begun in _begun(bands, jobs):
+        image = CertifiedImage(begun.middle, begun.radius, np.full(begun.decided.shape, COMPILED_BITS), {})
+        if begun.decided.all():
+            _write(band, image)
+            yield band, image
+        else:
+            unfinished.append((band, image, ~begun.decided))
+    yield from _side_by_side(_finished_band, unfinished, jobs)
+
+
+def _begun(bands: Sequence[_Band], jobs: int) -> Iterator[tuple[_Band, EnclosedRows]]:
+    """What compiled balls prove of the bands, in this order, made by threads."""
+    if not bands:
+        return
+    truth = compiled_truth(Certifier(bands[0].scene, bands[0].camera_rays))
+    threads = ThreadPoolExecutor(jobs)
+    try:
+        yield from zip(bands, threads.map(lambda band: truth.rows(band.first, band.end), bands), strict=True)
+    finally:
+        threads.shutdown(cancel_futures=True)
+
+
+def _finished_band(band: _Band, image: CertifiedImage, left: NDArray[np.bool_]) -> CertifiedImage:
+    """With Arb's balls where pixels are left."""
     certifier = Certifier(band.scene, band.camera_rays)
-    width = band.scene.camera.width
-    image = CertifiedImage(
-        np.empty((band.end - band.first, width, 3)),
-        np.empty((band.end - band.first, width, 3)),
-        np.empty((band.end - band.first, width), dtype=np.int64),
-        {},
-    )
-    for row in range(band.first, band.end):
-        for column in range(width):
-            _put(image, column, row - band.first, certifier.pixel(column, row))
+    for row, column in np.argwhere(left).tolist():
+        _put(image, column, row, certifier.pixel(column, band.first + row))
     _write(band, image)
     return image
 

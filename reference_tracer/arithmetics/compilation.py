@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from raytruth.reference_tracer.compiler.compilation import Program
+from raytruth.reference_tracer.compiler.questions import marks_taken
 from raytruth.reference_tracer.compiler.types import Array, Integer, Tuple, type_of
 from raytruth.reference_tracer.source.scene_data import SceneData
 from raytruth.scenes.scene import LARGEST_DEPTH
@@ -26,7 +27,7 @@ def kernel_program(
 ) -> Program:
     """The source of a kernel in a number type; `numbers` are its literals and constants by name."""
     names: dict[str, Any] = {name: arithmetic.number(value) for name, value in numbers.items()}
-    names |= {"float": arithmetic.number, **arithmetic.functions}
+    names |= {"float": arithmetic.number, "marks_taken": marks_taken, **arithmetic.functions}
     file = f"<kernel in {arithmetic.name}>"
     return Program(source, file, names, entry_points, arithmetic.operations, STACK_CAPACITY)
 

@@ -68,8 +68,9 @@ class _ModuleLowering:
             lowered: Any = ir.Function(self.module, ir.FunctionType(machine, [POINTER, *parameters]), name)
             lowered.linkage = "internal"
             lowered.attributes.add("nounwind")
-            # Passing a scene costs more than most functions do with it: left to LLVM, kernels are up to a tenth slower.
-            lowered.attributes.add("alwaysinline")
+            if not function.is_operation:
+                # Passing a scene costs more than most functions do with it: left to LLVM, they are a tenth slower.
+                lowered.attributes.add("alwaysinline")
             self.functions[function] = lowered
             _FunctionLowering(self, function, lowered).lower()
         return self.functions[function]
@@ -98,7 +99,7 @@ class _FunctionLowering:
             returned = self.lowered.function_type.return_type
             if isinstance(returned, ir.VoidType):
                 self.builder.ret_void()
-            else:
+            elif not function.is_operation:
                 self.builder.ret(ir.Constant(returned, None))
         self.entry.branch(self.lowered.basic_blocks[1])
 

@@ -35,6 +35,8 @@ class Function:
     file: str
     lines_before: int = 0
     """How many lines of the file stand before the text that was parsed."""
+    is_operation: bool = False
+    """Of an arithmetic: short, and called from everywhere."""
 
     @property
     def parameters(self) -> list[str]:
@@ -70,4 +72,4 @@ def function_of_python(function: FunctionType) -> Function:
     definition = ast.parse(textwrap.dedent("".join(lines))).body[0]
     assert isinstance(definition, ast.FunctionDef), f"{function.__name__} is no plain function"
     names: ChainMap[str, Any] = ChainMap(function.__globals__, vars(builtins))
-    return Function(definition, names, function.__code__.co_filename, first - 1)
+    return Function(definition, names, function.__code__.co_filename, first - 1, is_operation=True)

@@ -191,3 +191,5 @@ class TypedFunction:
     body: tuple[Statement, ...] = ()
     variables: dict[str, Type] = field(default_factory=dict)
     """Parameters, too."""
+    is_operation: bool = False
+    """Of an arithmetic."""
