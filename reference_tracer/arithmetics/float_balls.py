@@ -26,6 +26,9 @@ LARGEST = float.fromhex("0x1.fffffffffffffp+1023")
 # No radius, and no root of an end, takes more than twelve roundings in a row, the multiplication by this among them;
 # each makes it too small by a factor of 1 - u at most, and (1 - u)^-12 < 1 + 16·u.
 OUTWARD = 1.0 + 16 * UNIT_ROUNDOFF
+# A quotient's or a root's radius by the formula of narrow balls is then at most 1/32 larger than it need be.
+WIDE_DIVISOR = 1 / 32
+WIDE_RADICAND = 1 / 8
 # Where products and quotients are subnormal each loses η/2 at most; a radius and its middle take fewer than sixteen.
 # To a number as small as that it is added exactly.
 UNDERFLOW = 8 * SMALLEST
@@ -43,8 +46,16 @@ UNKNOWN = Ball(math.nan, math.inf)
 
 
 def rounded(middle: float, radius: float, roundoff: float) -> Ball:
-    """A finite ball times 1 ± roundoff, rounded outward: |x·(1 + δ) - m| ≤ r + roundoff·(|m| + r)."""
-    return Ball(middle, (radius + roundoff * (abs(middle) + radius)) * OUTWARD + UNDERFLOW)
+    """A finite ball times 1 ± roundoff, rounded outward: |x·(1 + δ) - m| ≤ r + roundoff·|m| + roundoff·r."""
+    return Ball(middle, (radius + roundoff * abs(middle) + roundoff * radius) * OUTWARD + UNDERFLOW)
+
+
+def rounded_ball(a: Ball, roundoff: float) -> Ball:
+    """A ball times 1 ± roundoff; what is not finite stays as it is, and so does what is exact."""
+    is_exact = a.radius == 0.0 and (roundoff == 0.0 or a.middle == 0.0)
+    if is_exact or not (a.radius <= LARGEST and abs(a.middle) <= LARGEST):
+        return a
+    return rounded(a.middle, a.radius, roundoff)
 
 
 def add(a: Ball, b: Ball, roundoff: float) -> Ball:
@@ -94,6 +105,9 @@ def truediv(a: Ball, b: Ball, roundoff: float) -> Ball:
     For x/y - q = ((x - m_a) - q·(y - m_b))/y, and |y| ≥ |m_b| - r_b. The computed quotient errs by e ≤ u·|q| + η/2, so
     |q| is at most (1 + 2·u) times the computed one, plus η. Before the division a product of r_b may lose η/2, which
     the division makes large; where r_b is 0 it loses nothing.
+
+    That radius is larger than half of what lies between the extreme quotients by a factor of 1 + r_b/|m_b| at most:
+    where that is too much, the extremes themselves are taken.
     """
     if abs(b.middle) == math.inf and b.radius <= LARGEST and abs(a.middle) <= LARGEST and a.radius <= LARGEST:
         return Ball(0.0, 0.0)
@@ -103,6 +117,9 @@ def truediv(a: Ball, b: Ball, roundoff: float) -> Ball:
         return UNKNOWN
     if _is_zero(a):
         return Ball(0.0, 0.0)
+    if b.radius > WIDE_DIVISOR * abs(b.middle):
+        extremes = _extreme_quotients(a, b) if b.middle > 0.0 else _extreme_quotients(neg(a), neg(b))
+        return rounded_ball(extremes, roundoff)
     middle = a.middle / b.middle
     spread = a.radius
     if b.radius > 0.0:
@@ -111,6 +128,19 @@ def truediv(a: Ball, b: Ball, roundoff: float) -> Ball:
     if not (abs(middle) <= LARGEST and radius <= LARGEST):
         return _unbounded(a, b, middle, roundoff)
     return rounded(middle, radius, roundoff)
+
+
+def _extreme_quotients(a: Ball, b: Ball) -> Ball:
+    """All x/y for y > 0: a lower end that is negative is least over the least y, one that is positive over the most."""
+    least, most = lower(a), upper(a)
+    least_quotient = least / (lower(b) if least < 0.0 else upper(b))
+    most_quotient = most / (upper(b) if most < 0.0 else lower(b))
+    return hull(below(least_quotient), -below(-most_quotient))
+
+
+def below(computed: float) -> float:
+    """A float that is at most what was computed to nearest as this: x ≥ s - u·|s| - η/2."""
+    return computed - 2.0 * UNIT_ROUNDOFF * abs(computed) - SMALLEST
 
 
 def _is_zero(a: Ball) -> bool:
@@ -148,16 +178,17 @@ def sqrt(a: Ball, roundoff: float) -> Ball:
 
     The source takes roots only of what it decided not to be negative. If all of a is not negative, the radius is
     r/(√m + √(m - r)) + e: |√x - √m| = |x - m|/(√x + √m), which is largest at x = m - r. The rounding e is at most
-    u·√m; no root is subnormal. Otherwise the root lies between 0 and that of m + r.
+    u·√m; no root is subnormal. That is larger than half of what lies between the roots of both ends by a factor of
+    1 + r/(4·m) + …: where that is too much, those roots are taken, and 0 for that of a negative end.
     """
     least, most = lower(a), upper(a)
     if _is_zero(a) or math.isnan(most) or not most >= 0.0:
         return a if _is_zero(a) else UNKNOWN
     if most == math.inf:
         return Ball(math.inf, 0.0) if a.radius == 0.0 and roundoff == 0.0 else UNKNOWN
-    if least < 0.0:
-        half = from_zero_to(math.sqrt(most) * OUTWARD)
-        return rounded(half.middle, half.radius, roundoff)
+    if a.radius > WIDE_RADICAND * a.middle:
+        least_root = below(math.sqrt(least)) if least > 0.0 else 0.0
+        return rounded_ball(hull(least_root, math.sqrt(most) * OUTWARD), roundoff)
     middle = math.sqrt(a.middle)
     return rounded(middle, a.radius / (middle + math.sqrt(least)) + UNIT_ROUNDOFF * middle, roundoff)
 
