@@ -35,7 +35,7 @@ from raytruth.reference_tracer.arithmetics.float_balls import (
 LOG_TWO_HIGH = float.fromhex("0x1.62e42feep-1")
 LOG_TWO_LOW = Ball(float.fromhex("0x1.a39ef35793c76p-33"), float.fromhex("0x1p-86"))
 # π/2 to 53 bits, and the rest.
-HALF_PI_HIGH = Ball(float.fromhex("0x1.921fb54442d18p+0"), 0.0)
+HALF_PI = float.fromhex("0x1.921fb54442d18p+0")
 HALF_PI_LOW = Ball(float.fromhex("0x1.1a62633145c07p-54"), float.fromhex("0x1p-107"))
 # So wide a ball may be whose radius is computed by a bound on the slope: it is at most 1/32 larger than it need be.
 NARROW = 1 / 32
@@ -93,7 +93,7 @@ def power(base: Ball, exponent: Ball, roundoff: float) -> Ball:
 def tan(x: Ball, roundoff: float) -> Ball:
     """The tangent, which rises between -π/2 and π/2: between those of the ends; unknown beyond, as for no camera."""
     least, most = lower(x), upper(x)
-    if not (abs(x.middle) <= LARGEST and least > -HALF_PI_HIGH.middle and most < HALF_PI_HIGH.middle):
+    if not (abs(x.middle) <= LARGEST and least > -HALF_PI and most < HALF_PI):
         return UNKNOWN
     if x.radius == 0.0:
         return rounded_ball(_tan_at(x.middle), roundoff)
@@ -213,7 +213,7 @@ def _tan_of_positive(x: float) -> Ball:
         return Ball(0.0, 0.0)
     if x <= QUARTER_PI:
         return truediv(_sine(Ball(x, 0.0)), _cosine(Ball(x, 0.0)), 0.0)
-    rest = add(sub(HALF_PI_HIGH, Ball(x, 0.0), 0.0), HALF_PI_LOW, 0.0)
+    rest = add(sub(Ball(HALF_PI, 0.0), Ball(x, 0.0), 0.0), HALF_PI_LOW, 0.0)
     return truediv(_cosine(rest), _sine(rest), 0.0)
 
 

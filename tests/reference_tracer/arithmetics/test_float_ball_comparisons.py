@@ -120,6 +120,8 @@ def test_a_maximum_and_a_minimum_hold_those_of_points_and_are_hardly_wider_than_
         for x in points(a):
             assert all(holds(result, of_points(x, y)) for y in points(b, -0.3)), (a, b, result)
         arbs = of_arbs(arb(a.middle, a.radius), arb(b.middle, b.radius))
+        if not abs(arbs) < arb(LARGEST):
+            continue  # an end is no float
         assert result.radius <= 1.05 * float(arbs.rad()) + 4 * UNIT_ROUNDOFF * abs(result.middle) + 2 * UNDERFLOW
 
 
