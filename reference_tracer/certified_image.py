@@ -1,4 +1,4 @@
-"""The certified image of a scene: bands of rows, rendered in processes side by side, and kept.
+"""The certified image of a scene: bands of rows, proven side by side, and kept.
 
 A band is a file in the cache, written whole or not at all, so that an image that was interrupted goes on where it
 stopped. Its folder is named by all that the image depends on: the scene, our code, and the library of balls.
@@ -27,6 +27,7 @@ from raytruth.reference_tracer.certification import (
     Undecided,
     agree,
 )
+from raytruth.reference_tracer.compiled_truth import COMPILED_BITS, CompiledTruth
 from raytruth.reference_tracer.storage.cache import cache_folder, keep
 from raytruth.reference_tracer.storage.source_digest import source_digest
 
@@ -37,10 +38,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from raytruth.reference_tracer.camera_rays import CameraRays
+    from raytruth.reference_tracer.compiled_truth import EnclosedRows
     from raytruth.scenes.scene import Scene
 
 # A second or so of work, so that little is lost when a run is interrupted, and no process is left alone for long.
 PIXELS_IN_A_BAND = 2048
+# A process starts in the time that Arb's balls take for so many pixels: a second or so.
+PIXELS_WORTH_A_PROCESS = 1000
 
 TRUTH_ROOMS = (
     "scenes",
@@ -103,8 +107,9 @@ def certified_image(
     fresh: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> CertifiedImage:
-    """The certified image of a scene at its own size, made by `jobs` processes, or by this one for 1.
+    """The certified image of a scene at its own size, made by `jobs` threads and processes, or by this one for 1.
 
+    Compiled balls prove most pixels (compiled_truth.py); what they leave undecided or wide is worked out by Arb's.
     Bands that are kept from before are used unless `fresh`. `progress` is told how many bands of how many are done.
     The radius of a decided pixel is at most 2^-52 of the image's largest value: pixels that miss that at first are
     evaluated with more bits once that value is known. Ties whose outcomes differ by no more than that decide nothing.
@@ -122,7 +127,8 @@ def certified_image(
         for band, image in images.items()
         if _is_wide(image, widest).any() or _ties_without_consequence(image, widest)
     ]
-    images.update(_side_by_side(_refined_band, wide, jobs))
+    left = sum(int(_is_wide(image, widest).sum()) for _, image, _ in wide)
+    images.update(_side_by_side(_refined_band, wide, _processes_for(left, jobs)))
     return _joined([(band, images[band]) for band in bands])
 
 
@@ -182,14 +188,21 @@ def _certified_bands(bands: Sequence[_Band], jobs: int) -> Iterator[tuple[_Band,
             yield band, image
         else:
             unfinished.append((band, image, ~begun.decided))
-    yield from _side_by_side(_finished_band, unfinished, jobs)
+    left = sum(int(pixels.sum()) for _, _, pixels in unfinished)
+    yield from _side_by_side(_finished_band, unfinished, _processes_for(left, jobs))
+
+
+def _processes_for(pixels: int, jobs: int) -> int:
+    """How many processes are worth starting for pixels that need Arb's balls."""
+    return min(jobs, 1 + pixels // PIXELS_WORTH_A_PROCESS)
 
 
 def _begun(bands: Sequence[_Band], jobs: int) -> Iterator[tuple[_Band, EnclosedRows]]:
     """What compiled balls prove of the bands, in this order, made by threads."""
     if not bands:
         return
-    truth = compiled_truth(Certifier(bands[0].scene, bands[0].camera_rays))
+    scene, camera_rays = bands[0].scene, bands[0].camera_rays
+    truth = CompiledTruth(scene, Certifier(scene, camera_rays).frame())
     threads = ThreadPoolExecutor(jobs)
     try:
         yield from zip(bands, threads.map(lambda band: truth.rows(band.first, band.end), bands), strict=True)

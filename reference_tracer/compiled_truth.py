@@ -17,6 +17,7 @@ from raytruth.reference_tracer.arithmetics.compilation import INTEGER, kernel_pr
 from raytruth.reference_tracer.arithmetics.enclosed_rows import enclosed_rows
 from raytruth.reference_tracer.arithmetics.instantiation import kernel_source
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
+from raytruth.reference_tracer.arithmetics.truth_arithmetic import TRUTH_ARITHMETIC, double_double_of
 from raytruth.reference_tracer.compiler.types import Array, Tuple
 from raytruth.reference_tracer.tables import build_tables
 from raytruth.scenes.requirements import required_features
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
     from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
     from raytruth.scenes.scene import Scene
 
+COMPILED_BITS = 106
+"""Of a double-double number: twice float64's."""
 ENCLOSED_ROWS = enclosed_rows.__name__
 
 
@@ -50,17 +53,16 @@ class CompiledTruth:
     `frame` is what the scene's camera rays share, in Arb's balls: tangents are Arb's.
     """
 
-    def __init__(self, scene: Scene, frame: Any, arithmetic: Arithmetic) -> None:
+    def __init__(self, scene: Scene, frame: Any) -> None:
         features = required_features(scene)
         self.width = scene.camera.width
-        self.arithmetic = arithmetic
-        self.frame = tuple(tuple(map(from_arb, vector)) for vector in frame)
-        self.kernel = enclosing_kernel(arithmetic, features)
-        self.data = build_tables(scene, features, arithmetic)
+        self.frame = tuple(tuple(map(double_double_of, vector)) for vector in frame)
+        self.kernel = enclosing_kernel(TRUTH_ARITHMETIC, features)
+        self.data = build_tables(scene, features, TRUTH_ARITHMETIC)
 
     def rows(self, first: int, end: int) -> EnclosedRows:
         """The pixels of the rows `first` to `end` - 1. Threads may call this side by side."""
-        colors = self.arithmetic.image(end - first, self.width, 3)
+        colors = TRUTH_ARITHMETIC.image(end - first, self.width, 3)
         marks = np.zeros((end - first, self.width), dtype=np.int64)
         self.kernel(self.data, self.frame, first, end, colors, marks)
         middle, radius = enclosures(colors)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from raytruth.reference_tracer.compiler.compilation import Program
 from raytruth.reference_tracer.compiler.questions import marks_taken
@@ -11,9 +11,9 @@ from raytruth.reference_tracer.source.scene_data import SceneData
 from raytruth.scenes.scene import LARGEST_DEPTH
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
+    from types import FunctionType
 
-    from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
     from raytruth.reference_tracer.compiler.types import Type
 
 # Tracing takes one ray from the stack and puts at most three there, each one level deeper: a mirror's and two of a
@@ -22,8 +22,31 @@ STACK_CAPACITY = 2 * LARGEST_DEPTH + 1
 INTEGER = Integer()
 
 
+class CompiledArithmetic(Protocol):
+    """What is compiled of an arithmetic (arithmetic.py)."""
+
+    @property
+    def name(self) -> str:
+        """What it is called in messages."""
+
+    @property
+    def number(self) -> Callable[[float], Any]:
+        """Makes a number of a float."""
+
+    @property
+    def functions(self) -> Mapping[str, Any]:
+        """What the source takes from `math` or defines itself, by name."""
+
+    @property
+    def operations(self) -> Mapping[str, FunctionType]:
+        """What operators do."""
+
+
 def kernel_program(
-    source: str, numbers: Mapping[str, float], arithmetic: Arithmetic, entry_points: Mapping[str, tuple[Type, ...]]
+    source: str,
+    numbers: Mapping[str, float],
+    arithmetic: CompiledArithmetic,
+    entry_points: Mapping[str, tuple[Type, ...]],
 ) -> Program:
     """The source of a kernel in a number type; `numbers` are its literals and constants by name."""
     names: dict[str, Any] = {name: arithmetic.number(value) for name, value in numbers.items()}
@@ -32,7 +55,7 @@ def kernel_program(
     return Program(source, file, names, entry_points, arithmetic.operations, STACK_CAPACITY)
 
 
-def image_entry_points(arithmetic: Arithmetic) -> dict[str, tuple[Type, ...]]:
+def image_entry_points(arithmetic: CompiledArithmetic) -> dict[str, tuple[Type, ...]]:
     """What Python calls of a kernel that makes images, with the types of the arguments."""
     number, scene = number_type(arithmetic), scene_type(arithmetic)
     return {
@@ -41,12 +64,12 @@ def image_entry_points(arithmetic: Arithmetic) -> dict[str, tuple[Type, ...]]:
     }
 
 
-def scene_type(arithmetic: Arithmetic) -> Tuple:
+def scene_type(arithmetic: CompiledArithmetic) -> Tuple:
     """The type of SceneData."""
     return Tuple((Array(number_type(arithmetic)), Array(INTEGER)), SceneData._fields, SceneData.__name__)
 
 
-def number_type(arithmetic: Arithmetic) -> Type:
+def number_type(arithmetic: CompiledArithmetic) -> Type:
     """The type of a number of this arithmetic."""
     found = type_of(arithmetic.number(0.0))
     assert found is not None, f"{arithmetic.name} has no numbers that the compiler knows"

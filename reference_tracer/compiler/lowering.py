@@ -99,7 +99,7 @@ class _FunctionLowering:
             returned = self.lowered.function_type.return_type
             if isinstance(returned, ir.VoidType):
                 self.builder.ret_void()
-            elif not function.is_operation:
+            else:
                 self.builder.ret(ir.Constant(returned, None))
         self.entry.branch(self.lowered.basic_blocks[1])
 

@@ -10,8 +10,8 @@ from llvmlite import binding
 
 # As much as is worth its time: level 3 makes kernels no quicker.
 OPTIMISATION = 2
-# In LLVM's units of size, for the operations of arithmetics: with its own 225, kernels of balls take ten times as long to
-# compile for code that is a tenth faster; with anything from 25 to 110 they do not.
+# In LLVM's units of size, for the operations of arithmetics: with its own 225, kernels of balls take ten times as long
+# to compile for code that is a tenth faster; with anything from 25 to 110 they do not.
 LARGEST_INLINED = 60
 
 

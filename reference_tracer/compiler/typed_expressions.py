@@ -80,7 +80,7 @@ class ExpressionTyper:
         return self._of_value(self._meaning(node), node)
 
     def _attribute(self, node: ast.Attribute) -> Expression:
-        if isinstance(node.value, ast.Name) and node.value.id not in self.variables:
+        if isinstance(node.value, ast.Name) and self._module(node.value) is not None:
             return self._of_value(self._meaning(node), node)
         whole = self.typed(node.value)
         if isinstance(whole.type, Tuple) and node.attr in whole.type.names:
@@ -199,10 +199,15 @@ class ExpressionTyper:
         if isinstance(node, ast.Name) and node.id in self.function.names:
             return self.function.names[node.id]
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-            module = self.function.names.get(node.value.id)
-            if isinstance(module, ModuleType) and hasattr(module, node.attr):
+            module = self._module(node.value)
+            if module is not None and hasattr(module, node.attr):
                 return getattr(module, node.attr)
         raise self.function.error(node, "this name stands for nothing")
+
+    def _module(self, node: ast.Name) -> ModuleType | None:
+        """The module that a name stands for."""
+        found = None if node.id in self.variables else self.function.names.get(node.id)
+        return found if isinstance(found, ModuleType) else None
 
     def _of_value(self, value: Any, node: ast.AST) -> Expression:
         """A constant: a number, a truth value, or a NamedTuple of such."""

@@ -66,7 +66,9 @@ class _FunctionTyper:
         definition = self.function.definition
         body = self._block(definition.body)
         returns = self.returns or Nothing()
-        return TypedFunction(definition.name, self.parameters, returns, body, self.variables, self.function.is_operation)
+        return TypedFunction(
+            definition.name, self.parameters, returns, body, self.variables, self.function.is_operation
+        )
 
     def _block(self, nodes: Sequence[ast.stmt]) -> tuple[Statement, ...]:
         return tuple(statement for node in nodes for statement in self._statements(node))
