@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from raytruth.reference_tracer.arithmetics import float_balls
 from raytruth.reference_tracer.arithmetics.float_balls import (
+    LARGEST,
     OUTWARD,
     UNDERFLOW,
     UNIT_ROUNDOFF,
@@ -100,7 +101,7 @@ def mul(a: DoubleDoubleBall, b: DoubleDoubleBall, roundoff: float) -> DoubleDoub
     middle = fast_two_sum(product.high, product.low + (a.high * b.low + a.low * b.high))
     lost = 0.0 if a.low == 0.0 and b.low == 0.0 else LOST_OF_PRODUCT * abs(middle.high)
     spread = abs(a.high) * b.radius + a.radius * (abs(b.high) + b.radius)
-    if spread > 0.0:
+    if a.radius > 0.0 or b.radius > 0.0:
         spread = spread + UNDERFLOW
     return _rounded(middle, spread * OUTWARD + lost, roundoff)
 
@@ -122,7 +123,7 @@ def truediv(a: DoubleDoubleBall, b: DoubleDoubleBall, roundoff: float) -> Double
 
 
 def sqrt(a: DoubleDoubleBall, roundoff: float) -> DoubleDoubleBall:
-    """The root, with the radius of `float_balls.sqrt`, where e ≤ 4·u²·√m (SQRTDWtoDW; its x - s² is exact here, too)."""
+    """The root, with the radius of `float_balls.sqrt`, where e ≤ 4·u²·√m (SQRTDWtoDW; x - s² is exact)."""
     if not (_is_common(a.high) and a.high > 0.0 and a.radius <= WIDE_RADICAND * a.high):
         return from_float_ball(float_balls.sqrt(to_float_ball(a), roundoff))
     root = math.sqrt(a.high)
@@ -156,25 +157,27 @@ def _rounded(middle: DoubleWord, radius: float, roundoff: float) -> DoubleDouble
     """A ball times 1 ± roundoff, rounded outward; |high + low| ≤ |high|·(1 + u), which is a rounding more."""
     if radius == 0.0 and (roundoff == 0.0 or middle.high == 0.0):
         return DoubleDoubleBall(middle.high, middle.low, 0.0)
+    if not radius <= LARGEST:  # it may be NaN, of 0 times infinity
+        return DoubleDoubleBall(middle.high, middle.low, math.inf)
     wider = float_balls.rounded(middle.high, radius, roundoff)
     return DoubleDoubleBall(middle.high, middle.low, wider.radius)
 
 
 def fast_two_sum(a: float, b: float) -> DoubleWord:
-    """a + b, exactly, if |a| ≥ |b| or a = 0 (Dekker, "A Floating-Point Technique", 1971)."""
+    """The sum, exactly, if |a| ≥ |b| or a = 0 (Dekker, "A Floating-Point Technique", 1971)."""
     total = a + b
     return DoubleWord(total, b - (total - a))
 
 
 def two_sum(a: float, b: float) -> DoubleWord:
-    """a + b, exactly (Knuth, "The Art of Computer Programming", volume 2, section 4.2.2, theorem B)."""
+    """The sum, exactly (Knuth, "The Art of Computer Programming", volume 2, section 4.2.2, theorem B)."""
     total = a + b
     back = total - a
     return DoubleWord(total, (a - (total - back)) + (b - back))
 
 
 def two_product(a: float, b: float) -> DoubleWord:
-    """a·b, exactly, if nothing overflows and the last bit of the product is a float (Dekker 1971, after Veltkamp)."""
+    """The product, exactly, if nothing overflows and its last bit is a float (Dekker 1971, after Veltkamp)."""
     product = a * b
     first, second = split(a), split(b)
     rest = ((first.high * second.high - product) + first.high * second.low) + first.low * second.high

@@ -9,7 +9,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from raytruth.reference_tracer.arithmetics.balls import power as arb_power
-from raytruth.reference_tracer.arithmetics.float_ball_functions import exp, power, tan
+from raytruth.reference_tracer.arithmetics.float_ball_functions import (
+    HALF_PI,
+    HALF_PI_LOW,
+    LOG_TWO_HIGH,
+    LOG_TWO_LOW,
+    exp,
+    power,
+    tan,
+)
 from raytruth.reference_tracer.arithmetics.float_balls import LARGEST, UNDERFLOW, Ball
 from tests.reference_tracer.arithmetics.ball_draws import (
     NUMBER_OF_BALLS,
@@ -74,7 +82,7 @@ def arguments(name: str, seed: int) -> Iterator[tuple[Ball, Ball]]:
             shrink = 0.99 * math.pi / 2 / (size + a.radius) if size + a.radius > 1.5 else 1.0
         else:
             shrink = 1.0
-        exponent = Ball(min(abs(b.middle) + 0.5, 300.0), min(b.radius, 0.4) if b.radius < 1e-3 else 0.0)
+        exponent = Ball(min(abs(b.middle) + 0.01, 300.0), min(b.radius, 0.4) if b.radius < 1e-3 else 0.0)
         yield Ball(a.middle * shrink, a.radius * shrink), exponent
 
 
@@ -94,8 +102,8 @@ def test_a_result_holds_the_exact_value_of_infinities_denormals_zeros_and_nan(na
 @with_fixture
 @pytest.mark.parametrize("name", FUNCTIONS)
 @given(
-    a=st.builds(Ball, st.floats(-800, 800) | st.floats(-2, 2), st.sampled_from([0.0, 1e-300, 1e-17, 0.01, 3.0])),
-    b=st.builds(Ball, st.floats(0.5, 400), st.sampled_from([0.0, 1e-9, 0.25])),
+    a=st.builds(Ball, st.floats(-800, 800) | st.floats(-2, 2), st.sampled_from([0.0, 1e-300, 1e-17, 0.01, 0.03, 3.0])),
+    b=st.builds(Ball, st.floats(0.001, 400), st.sampled_from([0.0, 1e-9, 0.25])),
     roundoff=st.sampled_from(ROUNDOFFS),
     inner=st.floats(-1, 1),
 )
@@ -139,3 +147,15 @@ def test_what_is_exact_stays_so() -> None:
     assert exp(Ball(0.0, 0.0), 0.0).middle == 1.0
     assert tan(Ball(0.0, 0.0), 0.0) == power(Ball(-1.0, 0.5), Ball(7.0, 0.0), 0.0) == Ball(0.0, 0.0)
     assert exp(Ball(0.0, 0.0), 0.0).radius == 0.0
+
+
+def test_powers_by_small_exponents_of_balls_that_are_just_narrow_are_held() -> None:
+    for exponent in (0.01, 0.1, 0.4, 1.0):
+        for middle in (0.1, 0.9, 3.0):
+            check_points("power", Ball(middle, middle / 32.0 * 0.999), Ball(exponent, 0.0), 0.0)
+
+
+def test_the_constants_are_what_they_say() -> None:
+    assert holds(LOG_TWO_LOW, arb(2).log() - arb(LOG_TWO_HIGH))
+    assert holds(HALF_PI_LOW, arb.pi() / 2 - arb(HALF_PI))
+    assert (LOG_TWO_HIGH * 2.0**32).is_integer()

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -202,3 +203,13 @@ def test_a_hull_holds_both_ends_and_is_hardly_wider(a: float, b: float) -> None:
         assert ball.radius <= abs(a - b) * (0.5 + 2.0**-40) + 2 * UNDERFLOW + abs(ball.middle) * 2 * UNIT_ROUNDOFF
     assert (ball.radius == 0.0) == (a == b)
     assert SMALLEST > 0.0
+
+
+@pytest.mark.clause("PRJ-2")
+def test_the_worked_number_of_the_page_on_balls_is_what_comes_out() -> None:
+    text = (Path(__file__).parents[3] / "docs" / "ball-arithmetic.md").read_text(encoding="utf-8")
+    for roundoff in (0.0, 2.0**-24):
+        product = mul(Ball(2.0, 0.5), Ball(3.0, 0.25), roundoff)
+        assert product.middle == 6.0
+        assert f"{product.radius!r}" in text
+    assert UNDERFLOW == 2.0**-1071
