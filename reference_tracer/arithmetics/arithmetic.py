@@ -17,7 +17,6 @@ from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
     from contextlib import AbstractContextManager
-    from types import FunctionType
 
     from numpy.typing import NDArray
 
@@ -44,7 +43,7 @@ class Arithmetic:
     process, floats have their own."""
     guarded_divisions: bool = False
     """A division by zero calls the function `over_zero`, for numbers that raise an error there."""
-    operations: Mapping[str, FunctionType] = field(default_factory=dict)
+    operations: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
     """In compiled code, what operators do to numbers that are NamedTuples of floats: functions, plain ones with types,
     by the operators' names in Python's module `operator`."""
 

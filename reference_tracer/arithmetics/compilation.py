@@ -12,7 +12,6 @@ from raytruth.scenes.scene import LARGEST_DEPTH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from types import FunctionType
 
     from raytruth.reference_tracer.compiler.types import Type
 
@@ -38,7 +37,7 @@ class CompiledArithmetic(Protocol):
         """What the source takes from `math` or defines itself, by name."""
 
     @property
-    def operations(self) -> Mapping[str, FunctionType]:
+    def operations(self) -> Mapping[str, Callable[..., Any]]:
         """What operators do."""
 
 

@@ -16,11 +16,10 @@ from raytruth.reference_tracer.arithmetics import double_double_comparisons as c
 from raytruth.reference_tracer.arithmetics import double_double_powers as powers
 from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
 from raytruth.reference_tracer.arithmetics.double_double_balls import DoubleDoubleBall
+from raytruth.reference_tracer.arithmetics.double_double_powers import EXACT
+from raytruth.reference_tracer.arithmetics.float_ball_comparisons import UNDECIDED
 from raytruth.reference_tracer.arithmetics.float_ball_conversions import from_arb
 from raytruth.reference_tracer.compiler.questions import undecided
-
-EXACT = 0.0
-"""The roundoff of an arithmetic that rounds nothing."""
 
 
 def exact_number(value: float) -> DoubleDoubleBall:
@@ -68,7 +67,7 @@ def exact_root(a: DoubleDoubleBall) -> DoubleDoubleBall:
 
 def decided(answer: int) -> bool:
     """The answer 1 or 0 of a comparison, as it is; else any, with a mark."""
-    if answer == comparisons.UNDECIDED:
+    if answer == UNDECIDED:
         return undecided()
     return answer == 1
 

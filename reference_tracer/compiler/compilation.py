@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
-import sys
 from dataclasses import dataclass, field
-from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
+from raytruth.reference_tracer.compiler.dependencies import said
 from raytruth.reference_tracer.compiler.loading import loaded
 from raytruth.reference_tracer.compiler.lowering import lowered_module
 from raytruth.reference_tracer.compiler.machine_code import object_code, processor
@@ -36,7 +34,7 @@ class Program:
     """What the text names without saying what it is: numbers, functions of Python's or of a module."""
     entry_points: Mapping[str, tuple[Type, ...]]
     """Functions of the text by name, with the types of their arguments. They return nothing."""
-    operations: Mapping[str, FunctionType] = field(default_factory=dict)
+    operations: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
     """What operators do to numbers that are NamedTuples: functions by the operators' names in module `operator`."""
     stack_capacity: int = 1
     """How many elements a list may hold."""
@@ -53,14 +51,5 @@ class Program:
 
     def _depends_on(self) -> list[str]:
         """Texts that differ where the object files may."""
-        named = [f"{name} = {_said(value)}" for name, value in sorted(self.names.items())]
-        table = [f"{name}: {_said(function)}" for name, function in sorted(self.operations.items())]
         entry_points = [repr(sorted(self.entry_points.items())), str(self.stack_capacity)]
-        return [source_digest(ROOM), *processor(), self.text, *named, *table, *entry_points]
-
-
-def _said(value: Any) -> str:
-    """A value as text; of a function the whole module, since it may call others there."""
-    if isinstance(value, FunctionType):
-        return f"{value.__qualname__} in {inspect.getsource(sys.modules[value.__module__])}"
-    return repr(value)
+        return [source_digest(ROOM), *processor(), self.text, *entry_points, *said(self.names), *said(self.operations)]

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from raytruth.scenes.scene import Scene
 
-pytestmark = pytest.mark.clause("ARI-1", "ARI-11")
+pytestmark = pytest.mark.clause("ARI-1", "ARI-12")
 
 
 def single(name: str) -> Callable[[np.float32], np.float32]:

@@ -10,7 +10,6 @@ from raytruth.reference_tracer.compiler.types import Array, Float, Integer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from types import FunctionType
 
     from raytruth.reference_tracer.compiler.types import Type
 
@@ -24,7 +23,7 @@ def program(
     text: str,
     *kinds: Type,
     names: Mapping[str, Any] = MATH,
-    operations: Mapping[str, FunctionType] | None = None,
+    operations: Mapping[str, Callable[..., Any]] | None = None,
     capacity: int = 8,
 ) -> Program:
     """A program whose one entry point is `run`."""

@@ -16,7 +16,7 @@ from tests.reference_tracer.compiler.programs import INTEGER, INTEGERS, MATH, NU
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-pytestmark = pytest.mark.clause("ARI-11")
+pytestmark = pytest.mark.clause("ARI-12")
 
 SMALL = st.integers(-9, 9)
 CONTROL = """

@@ -10,7 +10,7 @@ import pytest
 
 from tests.reference_tracer.compiler.programs import INTEGER, INTEGERS, NUMBER, NUMBERS, compiled
 
-pytestmark = pytest.mark.clause("ARI-11")
+pytestmark = pytest.mark.clause("ARI-12")
 
 # Where in glibc's fenv_t the register is that has the mode, and the mode's bits: DAZ and FTZ of MXCSR; FZ of FPCR.
 FLUSHING = {"x86_64": (7, 1 << 6 | 1 << 15), "aarch64": (0, 1 << 24)}

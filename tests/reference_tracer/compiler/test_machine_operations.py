@@ -18,7 +18,7 @@ from tests.reference_tracer.compiler.programs import INTEGERS, MATH, NUMBER, com
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-pytestmark = pytest.mark.clause("ARI-11", "ARI-1")
+pytestmark = pytest.mark.clause("ARI-12", "ARI-1")
 
 RESULTS = {
     "a + b": lambda a, b: a + b,

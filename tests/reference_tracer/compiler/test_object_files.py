@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-pytestmark = pytest.mark.clause("ARI-11", "ARI-6")
+pytestmark = pytest.mark.clause("ARI-12", "ARI-6")
 
 TEXT = "def run(a, results):\n    results[0] = a * a"
 
@@ -90,20 +90,6 @@ def test_another_processor_or_version_has_files_of_its_own(
         monkeypatch.setattr(compilation, "processor", lambda other=other: tuple(other))
         square(3.0)
     assert len(made) == len(list(folder.iterdir())) == 1 + len(processor())
-
-
-def test_a_changed_function_of_an_arithmetic_is_another_file(monkeypatch: pytest.MonkeyPatch, made: list[str]) -> None:
-    text = "def run(a, results):\n    results[0] = shifted(a)"
-    monkeypatch.setattr(compilation.inspect, "getsource", str)
-    results = np.zeros(1)
-    compiled(text, NUMBER, NUMBERS, names={"shifted": shifted})(1.0, results)
-    monkeypatch.setattr(compilation.inspect, "getsource", lambda module: f"{module}, changed")
-    compiled(text, NUMBER, NUMBERS, names={"shifted": shifted})(1.0, results)
-    assert len(made) == 2
-
-
-def shifted(a: float) -> float:
-    return a + 1.0
 
 
 SCRIPT = f"""

@@ -17,7 +17,7 @@ from raytruth.reference_tracer.rendering import first_hits, prepare, render
 from tests.reference_tracer.compiler.programs import INTEGER, INTEGERS, NUMBER, compiled
 from tests.reference_tracer.small_scenes import library_scene
 
-pytestmark = pytest.mark.clause("ARI-11", "ARI-3")
+pytestmark = pytest.mark.clause("ARI-12", "ARI-3")
 
 
 class Interval(NamedTuple):

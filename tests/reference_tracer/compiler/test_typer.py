@@ -10,7 +10,7 @@ import pytest
 from raytruth.reference_tracer.compiler.names import NotCompilableError
 from tests.reference_tracer.compiler.programs import FILE, INTEGER, INTEGERS, NUMBER, NUMBERS, program
 
-pytestmark = pytest.mark.clause("ARI-11")
+pytestmark = pytest.mark.clause("ARI-12")
 
 REFUSED = {
     "b = {}": "the compiler does not know this: {}",
