@@ -21,9 +21,13 @@ ZERO = Ball(0.0, 0.0)
 
 
 def less(a: DoubleDoubleBall, b: DoubleDoubleBall) -> int:
-    """Whether a < b: whether the difference a - b is below 0. Infinities are compared as floats."""
-    if not (abs(a.high) <= LARGEST and abs(b.high) <= LARGEST):
-        return float_ball_comparisons.less(to_float_ball(a), to_float_ball(b))
+    """Whether a < b: whether the difference a - b is below 0.
+
+    Balls of one float decide that most of the time, and quickly; infinities they decide always.
+    """
+    roughly = float_ball_comparisons.less(to_float_ball(a), to_float_ball(b))
+    if roughly != UNDECIDED:
+        return roughly
     return float_ball_comparisons.less(to_float_ball(sub(a, b, 0.0)), ZERO)
 
 
