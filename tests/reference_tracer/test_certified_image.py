@@ -72,16 +72,17 @@ def touching_scene() -> Scene:
 
 @pytest.mark.clause("ARI-5")
 @pytest.mark.usefixtures("cache")
-def test_each_pixel_is_in_its_place() -> None:
-    image = certified_image(scene())
-    certifier = Certifier(scene())
+@pytest.mark.parametrize(("name", "bits"), [("single-sphere", {106}), ("coincident-spheres", {106, 128})])
+def test_each_pixel_is_in_its_place(name: str, bits: set[int]) -> None:
+    image = certified_image(library_scene(name, WIDTH, HEIGHT))
+    certifier = Certifier(library_scene(name, WIDTH, HEIGHT))
     assert image.middle.shape == image.radius.shape == (HEIGHT, WIDTH, 3)
     for row, column in np.ndindex(HEIGHT, WIDTH):
         pixel = certifier.pixel(column, row)
         assert tuple(image.middle[row, column]) == pixel.middle
         # What both arithmetics lose is far below the rounding to float64, which makes the radius.
         assert image.radius[row, column] == pytest.approx(pixel.radius, rel=2.0**-40)
-        assert image.precision_bits[row, column] == COMPILED_BITS
+    assert set(image.precision_bits.ravel().tolist()) == bits == {COMPILED_BITS, *bits}
     assert image.decided.all()
 
 

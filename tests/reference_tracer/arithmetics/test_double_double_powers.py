@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from raytruth.reference_tracer.arithmetics.double_double_balls import DoubleDoubleBall
-from raytruth.reference_tracer.arithmetics.double_double_powers import HALVINGS, LOG_TWO, REST, exp, power
+from raytruth.reference_tracer.arithmetics.double_double_powers import DEGREE, HALVINGS, LOG_TWO, REST, exp, power
 
 pytestmark = pytest.mark.clause("ARI-11")
 
@@ -78,7 +78,8 @@ def test_the_constants_are_what_they_stand_for() -> None:
     with ctx.workprec(DIGITS):
         assert holds(LOG_TWO, arb(2).log())
         largest = arb(2) ** -HALVINGS
-        assert largest**13 / arb(13).gamma() / 13 / (1 - largest) < arb(REST.radius)
+        first_left_out = largest ** (DEGREE + 1) / arb(DEGREE + 2).gamma()
+        assert first_left_out / (1 - largest) < arb(REST.radius)
 
 
 def test_what_is_zero_or_one_is_exact() -> None:
