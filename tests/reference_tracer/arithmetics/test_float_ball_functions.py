@@ -37,9 +37,6 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.usefixtures("many_bits"), pytest.mark.clause("ARI-11")]
 with_fixture = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 
-COUNT = NUMBER_OF_BALLS // 8
-"""Each of these takes some fifty operations."""
-
 
 @pytest.fixture
 def many_bits() -> Iterator[None]:
@@ -74,7 +71,7 @@ def check_points(name: str, a: Ball, b: Ball, roundoff: float, inner: float = 0.
 
 def arguments(name: str, seed: int) -> Iterator[tuple[Ball, Ball]]:
     """Balls that a function has finite values at: of moderate size, some of them tiny."""
-    for a, b in zip(drawn_balls(seed, COUNT), drawn_balls(seed + 1, COUNT), strict=True):
+    for a, b in zip(drawn_balls(seed, NUMBER_OF_BALLS), drawn_balls(seed + 1, NUMBER_OF_BALLS), strict=True):
         size = abs(a.middle)
         if name == "exp":
             shrink = 1.0 if size < 700.0 else 2.0**-1022
@@ -88,7 +85,7 @@ def arguments(name: str, seed: int) -> Iterator[tuple[Ball, Ball]]:
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_a_result_holds_the_exact_value_at_points_of_balls(name: str) -> None:
-    for (a, b), roundoff in zip(arguments(name, 11), drawn_roundoffs(13, COUNT), strict=True):
+    for (a, b), roundoff in zip(arguments(name, 11), drawn_roundoffs(13, NUMBER_OF_BALLS), strict=True):
         check_points(name, a, b, roundoff)
 
 
@@ -121,7 +118,7 @@ def test_a_radius_is_at_most_a_twentieth_larger_than_arbs(name: str) -> None:
     which it makes larger by x·tan'(x)/tan(x).
     """
     compared = 0
-    for (a, b), roundoff in zip(arguments(name, 14), drawn_roundoffs(16, COUNT), strict=True):
+    for (a, b), roundoff in zip(arguments(name, 14), drawn_roundoffs(16, NUMBER_OF_BALLS), strict=True):
         result = FUNCTIONS[name][0](a, b, roundoff)
         with ctx.workprec(53):
             x, y = arb(a.middle, a.radius), arb(b.middle, b.radius)
@@ -140,7 +137,7 @@ def test_a_radius_is_at_most_a_twentieth_larger_than_arbs(name: str) -> None:
         compared += 1
         allowed = 1.05 * arbs + roundings * 2.0**-53 * size + 6 * UNDERFLOW
         assert result.radius <= allowed, (name, a, b, roundoff, result, arbs)
-    assert compared > COUNT / 4
+    assert compared > NUMBER_OF_BALLS / 4
 
 
 def test_what_is_exact_stays_so() -> None:
