@@ -34,7 +34,10 @@ def model_problems(model: AllowedModel) -> Iterator[tuple[tuple[str, ...], str]]
 
 
 def radiance_model(model: AllowedModel) -> ErrorModel:
-    """The error model of what is computed, before anything is written. Raises ValueError where parts do not go together."""
+    """The error model of what is computed, before anything is written.
+
+    Raises ValueError where its parts do not go together.
+    """
     computed = replace(error_model_of_declaration(_as_declared(model)), output=RADIANCE)
     if not model.epsilon:
         return computed

@@ -90,7 +90,8 @@ class Stage(Part):
 
     id: Identifier = Field(description="What --stage names it by.")
     without: tuple[FeatureName, ...] = Field(
-        min_length=1, description="Scenes that require one of these features do not count, by names as in a declaration."
+        min_length=1,
+        description="Scenes that require one of these features do not count; names as in a declaration.",
     )
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.comparisons.grading.allowed_models import radiance_model
-from raytruth.comparisons.grading.faulty_tracers import FaultyTracer, outcomes_of, single_faults, values_of
+from raytruth.comparisons.grading.faulty_tracers import FaultyTracer, outcomes_of, values_of
 from raytruth.comparisons.grading.global_mistakes import corrected, output_of, written_values
 from raytruth.comparisons.grading.scene_grading import expectations_of
 from raytruth.comparisons.measures.visibility import differs_visibly
@@ -95,7 +95,9 @@ def evidence_of(
 def spread(mask: NDArray[np.bool_], most: int) -> list[tuple[int, int]]:
     """Columns and rows of at most so many pixels of a mask, spread evenly over them."""
     places = np.argwhere(mask)
-    chosen = places[np.unique(np.linspace(0, len(places) - 1, min(most, len(places))).astype(int))] if len(places) else []
+    if not len(places):
+        return []
+    chosen = places[np.unique(np.linspace(0, len(places) - 1, min(most, len(places))).astype(int))]
     return [(int(column), int(row)) for row, column in chosen]
 
 
@@ -106,14 +108,17 @@ def agreements(evidence: Evidence, tracers: Sequence[FaultyTracer]) -> dict[Faul
     given = _at(evidence.picture, pixels)
     found = {}
     for tracer in tracers:
-        values = values_of(tracer, evidence.scene, evidence.reading, pixels) if tracer.applies_to(evidence.scene) else None
+        if not tracer.applies_to(evidence.scene):
+            continue
+        values = values_of(tracer, evidence.scene, evidence.reading, pixels)
         if values is None:
             continue
         low, high = evidence.read(values)
         values = 0.5 * (low + high)
         unlike = differs_visibly(given, values).any(axis=1)
         scale = np.maximum(np.maximum(np.abs(given), np.abs(values)), np.finfo(np.float32).tiny)
-        apart = (np.abs(given - values) / scale).max(axis=1)
+        with np.errstate(over="ignore", invalid="ignore"):  # of what is infinite, and as far as can be
+            apart = (np.abs(given - values) / scale).max(axis=1)
         found[tracer] = Agreement(
             alike=int((~unlike[: len(wrong)]).sum()),
             unlike=int(unlike[len(wrong) :].sum()),

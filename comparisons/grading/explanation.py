@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from raytruth.comparisons.faults.catalogue import all_faults
 from raytruth.comparisons.grading.diagnosis import MOST_PROVED, MOST_SCENES, agreements, proof_of, ranked
-from raytruth.comparisons.grading.faulty_tracers import FaultyTracer, single_faults
+from raytruth.comparisons.grading.faulty_tracers import FaultyTracer
 from raytruth.comparisons.records.grade_results import Diagnosed
 from raytruth.scenes.requirements import required_features
 
@@ -22,26 +21,25 @@ if TYPE_CHECKING:
     from raytruth.comparisons.grading.diagnosis import Evidence, Proof
     from raytruth.scenes.scene import Scene
 
-# Of two mistakes each may be any of the likeliest ones.
-MOST_PAIRED = 4
+# Of two mistakes one is the one that explains most by itself; with any other they are as much work as all single ones,
+# so that they are looked for in the two simplest failing scenes.
+MOST_PAIRED = 1
+MOST_PAIR_SCENES = 2
 
 
-def diagnosis(evidence: Sequence[Evidence], pool: Executor) -> list[Diagnosed]:
-    """The faults that explain most of what is wrong, the first explaining most; pairs where no single one explains all.
+def diagnosis(evidence: Sequence[Evidence], known: Sequence[FaultyTracer], pool: Executor) -> list[Diagnosed]:
+    """The known faults that explain most of what is wrong, the likeliest first; pairs where no single one explains all.
 
     Only the simplest failing scenes are looked at, which come first in `evidence`.
     """
     looked_at = evidence[:MOST_SCENES]
     if not looked_at:
         return []
-    singles = single_faults()
-    found = list(pool.map(agreements, looked_at, [singles] * len(looked_at)))
+    found = list(pool.map(agreements, looked_at, [known] * len(looked_at)))
     likeliest = ranked(found)[:MOST_PROVED]
     told = _proved(looked_at, likeliest, pool)
-    if not any(it.is_whole for it in told):
-        of_each = [ranked([of_scene])[:MOST_PAIRED] for of_scene in found]
-        likely = dict.fromkeys([*likeliest[:MOST_PAIRED], *(tracer for few in of_each for tracer in few[:1])])
-        told += _proved(looked_at, _pairs(likely), pool)
+    if not any(it.explained == it.looked_at for it in told):
+        told += _in_pairs(looked_at[:MOST_PAIR_SCENES], told, known, pool)
     return sorted((it for it in told if it.explained), key=_order)
 
 
@@ -65,13 +63,22 @@ def region_of(wrong: NDArray[np.bool_]) -> tuple[tuple[int, int], tuple[int, int
     return (int(columns.min()), int(columns.max())), (int(rows.min()), int(rows.max()))
 
 
-def _pairs(tracers: Iterable[FaultyTracer]) -> list[FaultyTracer]:
-    """All pairs of faults in different functions, the likeliest first."""
-    found = []
-    for one, other in combinations(tracers, 2):
-        if set(one.behaviour().functions).isdisjoint(other.behaviour().functions):
-            found.append(FaultyTracer((*one.faults, *other.faults)))
-    return found[:MOST_PROVED]
+def _in_pairs(
+    evidence: Sequence[Evidence], alone: Sequence[Diagnosed], known: Sequence[FaultyTracer], pool: Executor
+) -> list[Diagnosed]:
+    """The pairs that explain more than each of their faults does: one of the likeliest with any other."""
+    likeliest = sorted((it for it in alone if it.explained), key=_order)[:MOST_PAIRED]
+    pairs = {
+        FaultyTracer(tuple(sorted((it.fault, *other.faults))))
+        for it in likeliest
+        for other in known
+        if all_faults()[it.fault].overrides.keys().isdisjoint(other.behaviour().functions)
+    }
+    ordered = sorted(pairs, key=lambda pair: pair.faults)
+    found = list(pool.map(agreements, evidence, [ordered] * len(evidence)))
+    share = {it.fault: it.likelihood for it in alone}
+    proved = _proved(evidence, ranked(found)[:MOST_PROVED], pool)
+    return [it for it in proved if it.likelihood > max(share.get(fault, 0.0) for fault in it.fault.split(" + "))]
 
 
 def _proved(evidence: Sequence[Evidence], tracers: Sequence[FaultyTracer], pool: Executor) -> list[Diagnosed]:

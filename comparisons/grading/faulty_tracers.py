@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from raytruth.reference_tracer.rendering import prepare
 from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable
 
     from numpy.typing import NDArray
 
@@ -29,10 +29,31 @@ if TYPE_CHECKING:
     from raytruth.comparisons.grading.global_mistakes import Reading
     from raytruth.scenes.scene import Scene
 
-Pixels = Sequence[tuple[int, int]] if TYPE_CHECKING else Any
+Pixels = list[tuple[int, int]]
 """Columns and rows."""
 Boxes = list[list[list[tuple[float, float]]]]
 """For each pixel its outcomes, for each of these the ends of three channels; no outcome where nothing is known."""
+
+NOT_IN_BALLS = frozenset({"radiance", "radiance_at", "render_rows"})
+"""Functions that feasible sets have no use for: feasible_pixel.py walks the ray tree itself, with forks."""
+
+
+def _deeper(bounces: int) -> Callable[[Scene, ErrorModel], tuple[Scene, ErrorModel]]:
+    return lambda scene, model: (
+        scene.model_copy(update={"max_depth": max(0, scene.max_depth + bounces)}),
+        model,
+    )
+
+
+IN_OTHER_WORDS: dict[str, Callable[[Scene, ErrorModel], tuple[Scene, ErrorModel]]] = {
+    "one_bounce_too_few": _deeper(-1),
+    "one_bounce_too_many": _deeper(1),
+    "background_where_paths_end": lambda scene, model: (
+        scene,
+        replace(model, departures=replace(model.departures, end_of_depth="background")),
+    ),
+}
+"""Faults of these functions that are a right tracer of another scene, or one that departs from the specification."""
 
 
 @dataclass(frozen=True)
@@ -56,9 +77,13 @@ class FaultyTracer:
 
 
 def single_faults() -> list[FaultyTracer]:
-    """A tracer for each fault of the catalogue that lies in a function, in the catalogue's order."""
-    faults = all_faults().values()
-    return [FaultyTracer((it.name,)) for it in faults if it.overrides and it.gives == "image" and it.numbers == "float64"]
+    """A tracer for each fault of the catalogue that something can be proved of, in the catalogue's order."""
+    in_functions = [it for it in all_faults().values() if it.overrides and it.gives == "image"]
+    return [
+        FaultyTracer((it.name,))
+        for it in in_functions
+        if it.numbers == "float64" and (NOT_IN_BALLS.isdisjoint(it.overrides) or it.name in IN_OTHER_WORDS)
+    ]
 
 
 def values_of(tracer: FaultyTracer, scene: Scene, reading: Reading, pixels: Pixels) -> NDArray[np.float64] | None:
@@ -82,10 +107,13 @@ def outcomes_of(tracer: FaultyTracer, scene: Scene, reading: Reading, model: Err
     Nothing bounds what a faulty tracer may bring, so that a pixel whose rays cannot all be followed has no outcome.
     """
     shown = rendered_scene(reading, scene)
+    for fault in IN_OTHER_WORDS.keys() & set(tracer.faults):
+        shown, model = IN_OTHER_WORDS[fault](shown, model)
+    faulty = FaultyTracer(tuple(fault for fault in tracer.faults if fault not in IN_OTHER_WORDS)).behaviour()
     boxes: Boxes = []
     for allowed in dict.fromkeys((model, without_shortcuts(model))):
         try:
-            evaluator = PixelOutcomes(shown, allowed, merged(tracer.behaviour(), rays_of(reading).behaviour()), None)
+            evaluator = PixelOutcomes(shown, allowed, merged(faulty, rays_of(reading).behaviour()), None)
             colors, _ = evaluator.colors_and_hits(pixels, with_hits=False)
         except ERRORS:
             continue

@@ -7,7 +7,6 @@ graded as if the mistake had not been made.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import combinations
 from math import atan, degrees, radians, tan
@@ -22,14 +21,14 @@ from raytruth.reference_tracer.camera_rays import CENTRES, CameraRays
 from raytruth.scenes.camera import PerspectiveCamera
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from raytruth.comparisons.error_models.output_model import OutputModel
     from raytruth.scenes.scene import Scene
 
 Array = NDArray[np.float64]
 INTEGERS = {"uint8", "uint16"}
-# Half a pixel is one mistake, whichever corner it leads to; what a camera, or the numbers of a file, are taken for, too.
+# With three there would be some hundreds of ways to take a picture, and more pictures that two of them explain.
 MOST_AT_ONCE = 2
 
 

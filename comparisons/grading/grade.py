@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.grading.credit import score_of, scene_credit, topic_points
+from raytruth.comparisons.grading.credit import scene_credit, score_of, topic_points
 from raytruth.comparisons.grading.diagnosis import evidence_of
 from raytruth.comparisons.grading.explanation import diagnosis, region_of, unexplained
+from raytruth.comparisons.grading.faulty_tracers import single_faults
 from raytruth.comparisons.grading.global_mistakes import AS_IT_IS
 from raytruth.comparisons.grading.reading import best_reading
 from raytruth.comparisons.grading.scene_grading import graded_picture, judged_as
@@ -47,7 +48,8 @@ def grade_submission(
     pool: Executor,
 ) -> Grade:
     """The grade of a program for the scenes of each topic, by their ids. What goes wrong in a worker of the pool on one
-    scene is an error of the grader: that scene counts for nothing, and the grade says so."""
+    scene is an error of the grader: that scene counts for nothing, and the grade says so.
+    """
     start = time.perf_counter()
     given, declared = as_graded(program, assignment), output_model_of(program.declaration)
     scenes = {scene.name: scene for of_topic in topics.values() for scene in of_topic}
@@ -74,7 +76,7 @@ def diagnose(
     evidence = evidence_of(pictures, reading, declared, assignment)
     if not evidence:
         return [], ""
-    told = diagnosis(evidence, pool)
+    told = diagnosis(evidence, single_faults(), pool)
     if any(it.is_whole for it in told):
         return told, ""
     right = [it.scene for it in pictures if it.submitted.image is not None and not it.counts.wrong]

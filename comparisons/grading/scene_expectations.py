@@ -44,7 +44,7 @@ class PixelFit:
     declared: NDArray[np.bool_]
     """Of the right ones those that are so only by an epsilon or a departure, and visibly not the truth."""
     counted: NDArray[np.bool_]
-    """Whether partial credit is given for the pixel: something is seen there."""
+    """Whether partial credit is given for the pixel: something is seen there, and a black picture would be wrong."""
 
     @property
     def wrong(self) -> NDArray[np.bool_]:
@@ -77,7 +77,7 @@ class SceneExpectations:
         values = image if is_corrected else corrected(reading, image)
         truth, sets = self._expected(reading)
         finite = np.isfinite(values).all(axis=2)
-        right, is_open, due = (np.zeros(finite.shape, dtype=bool) for _ in range(3))
+        right, is_open, due, black = (np.zeros(finite.shape, dtype=bool) for _ in range(4))
         for feasible in sets:
             written = _as_written(feasible, reading, output)
             nearest = nearest_outcomes(values, written)
@@ -87,10 +87,11 @@ class SceneExpectations:
             right |= fits
             due |= fits & nearest.is_due
             is_open |= unjudged
+            black |= nearest_outcomes(np.zeros_like(values), written).in_tolerances() <= 1
         shown = written_values(reading, truth)
         shown = np.clip(shown, 0.0, 1.0) if output.clipped else shown
         declared_only = as_declared(values.astype(np.float32), shown, right & ~due)
-        return PixelFit(right, ~right & is_open & finite, declared_only, self._counted(sets[0]))
+        return PixelFit(right, ~right & is_open & finite, declared_only, _counted(sets[0], black))
 
     def _expected(self, reading: Reading) -> tuple[NDArray[np.float64], list[FeasibleSet]]:
         """The truth, and what each model allows, of the rays and the scene that were taken."""
@@ -101,11 +102,11 @@ class SceneExpectations:
             self._found[key] = judged_truth(scene, rays), [kept_feasible_set(scene, model) for model in models]
         return self._found[key]
 
-    @staticmethod
-    def _counted(feasible: FeasibleSet) -> NDArray[np.bool_]:
-        """Where something is seen; all pixels of a picture in which nothing is."""
-        seen: NDArray[np.bool_] = (feasible.hit_primitives >= 0).any(axis=2)
-        return seen if seen.any() else np.ones_like(seen)
+
+def _counted(feasible: FeasibleSet, black: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Where something is seen that is not black; all pixels of a picture in which nothing is."""
+    seen: NDArray[np.bool_] = (feasible.hit_primitives >= 0).any(axis=2) & ~black
+    return seen if seen.any() else np.ones_like(seen)
 
 
 def _as_written(feasible: FeasibleSet, reading: Reading, output: OutputModel) -> FeasibleSet:
@@ -114,4 +115,3 @@ def _as_written(feasible: FeasibleSet, reading: Reading, output: OutputModel) ->
         ends = written_values(reading, feasible.low), written_values(reading, feasible.high)
     low, high = output.interval_read(*ends)
     return replace(feasible, low=low, high=high)
-

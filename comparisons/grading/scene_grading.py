@@ -53,7 +53,9 @@ def expectations_of(scene: Scene, assignment: Assignment) -> SceneExpectations:
     return SceneExpectations(scene, [radiance_model(model) for model in assignment.models])
 
 
-def graded_picture(program: ProgramRenderer, assignment: Assignment, scene: Scene, declared: OutputModel) -> GradedPicture:
+def graded_picture(
+    program: ProgramRenderer, assignment: Assignment, scene: Scene, declared: OutputModel
+) -> GradedPicture:
     """Run the program on the scene, and judge its picture as it is."""
     return judged_as(AS_IT_IS, submitted(program, scene), assignment, scene, declared)
 

@@ -57,7 +57,7 @@ class Diagnosed(Record):
     """What the mistake is: this is the solution, which the teacher reads."""
     hint: str
     likelihood: float
-    """The share of the wrong pixels that were looked at which lie in the feasible sets of the tracer with this fault."""
+    """The share of the wrong pixels looked at that lie in the feasible sets of the tracer with this fault."""
     explained: int
     looked_at: int
     contradicted: int

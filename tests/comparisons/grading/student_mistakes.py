@@ -44,16 +44,36 @@ MISTAKES = (
     ),
     StudentMistake("pi forgotten", "cosine / pi if scene.is_radiometric else cosine", "cosine", ("no_pi",)),
     StudentMistake(
-        "pi everywhere", "cosine / pi if scene.is_radiometric else cosine", "cosine / pi", ("pi_in_the_classical_equation",)
+        "pi everywhere",
+        "cosine / pi if scene.is_radiometric else cosine",
+        "cosine / pi",
+        ("pi_in_the_classical_equation",),
     ),
-    StudentMistake("only one light", "for light in scene.lights:", "for light in scene.lights[:1]:", ("first_light_only",)),
-    StudentMistake("absolute cosine", "cosine = dot(normal, to_light)", "cosine = abs(dot(normal, to_light))", ("lit_through_the_surface",)),
     StudentMistake(
-        "far side of spheres", "    if -b - root > 0:\n        return -b - root  # SPH-1\n", "", ("farther_root_of_a_sphere",)
+        "only one light", "for light in scene.lights:", "for light in scene.lights[:1]:", ("first_light_only",)
+    ),
+    StudentMistake(
+        "absolute cosine",
+        "cosine = dot(normal, to_light)",
+        "cosine = abs(dot(normal, to_light))",
+        ("lit_through_the_surface",),
+    ),
+    StudentMistake(
+        "far side of spheres",
+        "    if -b - root > 0:\n        return -b - root  # SPH-1\n",
+        "",
+        ("farther_root_of_a_sphere",),
     ),
     StudentMistake("half triangles doubled", "if v < 0 or u + v > 1:", "if v < 0 or v > 1:", ("parallelogram",)),
-    StudentMistake("one over the distance", "quadratic * distance * distance", "quadratic * distance", ("one_over_distance",)),
-    StudentMistake("attenuation left out", "return 1 if light.is_clamped and divisor <= 1 else 1 / divisor", "return 1", ("no_falloff",)),
+    StudentMistake(
+        "one over the distance", "quadratic * distance * distance", "quadratic * distance", ("one_over_distance",)
+    ),
+    StudentMistake(
+        "attenuation left out",
+        "return 1 if light.is_clamped and divisor <= 1 else 1 / divisor",
+        "return 1",
+        ("no_falloff",),
+    ),
     StudentMistake("Blinn everywhere", "if material.is_blinn:", "if True:", ("blinn_for_phong",)),
     StudentMistake("Phong everywhere", "if material.is_blinn:", "if False:", ("phong_for_blinn",)),
     StudentMistake(
@@ -68,39 +88,90 @@ MISTAKES = (
         "scale(dot(ray.direction, normal), normal)",
         ("reflection_without_the_two",),
     ),
-    StudentMistake("one bounce fewer", "camera.inside, scene.max_depth)", "camera.inside, scene.max_depth - 1)", ("one_bounce_too_few",)),
-    StudentMistake("one bounce more", "camera.inside, scene.max_depth)", "camera.inside, scene.max_depth + 1)", ("one_bounce_too_many",)),
+    StudentMistake(
+        "one bounce fewer",
+        "camera.inside, scene.max_depth)",
+        "camera.inside, scene.max_depth - 1)",
+        ("one_bounce_too_few",),
+    ),
+    StudentMistake(
+        "one bounce more",
+        "camera.inside, scene.max_depth)",
+        "camera.inside, scene.max_depth + 1)",
+        ("one_bounce_too_many",),
+    ),
     StudentMistake(
         "indices upside down",
         "eta = glass.index / outer if enters else outer / glass.index",
         "eta = outer / glass.index if enters else glass.index / outer",
         ("inverted_index_ratio",),
     ),
-    StudentMistake("always as if entering", "eta = glass.index / outer if enters else outer / glass.index", "eta = glass.index / outer", ("same_ratio_on_both_sides",)),
+    StudentMistake(
+        "always as if entering",
+        "eta = glass.index / outer if enters else outer / glass.index",
+        "eta = glass.index / outer",
+        ("same_ratio_on_both_sides",),
+    ),
     StudentMistake(
         "dark total reflection",
         "return multiply(glass.reflectance, mirrored) if glass.reflectance else mirrored",
         "return BLACK",
         ("total_reflection_is_black",),
     ),
-    StudentMistake("radiance not scaled", "transmitted = (1 - fresnel) / (eta * eta) if scene.is_radiometric else 1 - fresnel", "transmitted = 1 - fresnel", ("radiance_not_scaled",)),
+    StudentMistake(
+        "radiance not scaled",
+        "transmitted = (1 - fresnel) / (eta * eta) if scene.is_radiometric else 1 - fresnel",
+        "transmitted = 1 - fresnel",
+        ("radiance_not_scaled",),
+    ),
     StudentMistake(
         "Schlick",
         "fresnel = (((c - g) / (c + g)) ** 2 + ((eta * eta * c - g) / (eta * eta * c + g)) ** 2) / 2",
-        "fresnel = ((eta - 1) / (eta + 1)) ** 2 + (1 - ((eta - 1) / (eta + 1)) ** 2) * (1 - (c if eta > 1 else g / eta)) ** 5",
+        "normal_incidence = ((eta - 1) / (eta + 1)) ** 2\n"
+        "        fresnel = normal_incidence + (1 - normal_incidence) * (1 - (c if eta > 1 else g / eta)) ** 5",
         ("schlick", "schlick_by_the_incident_cosine"),
     ),
-    StudentMistake("absorption forgotten", "    if medium is None or medium.dielectric.absorption is None:\n        return total\n", "    return total\n", ("nothing_absorbed",)),
-    StudentMistake("linear absorption", "exp(-sigma * distance)", "max(0.0, 1 - sigma * distance)", ("linear_absorption",)),
-    StudentMistake("gradient upside down", "k = (direction[1] + 1) / 2", "k = (1 - direction[1]) / 2", ("gradient_upside_down",)),
-    StudentMistake("normals not turned", "        normal = scale(-1, normal)\n", "        pass\n", ("normal_not_turned_to_the_viewer",)),
-    StudentMistake("mirrored", "x = (column + 0.5 - camera.width / 2) * camera.pixel", "x = -(column + 0.5 - camera.width / 2) * camera.pixel", ("mirrored",)),
-    StudentMistake("rows in the wrong order", "for row in reversed(range(camera.height)):", "for row in range(camera.height):", ("upside_down",)),
-    StudentMistake("corners of pixels", "column + 0.5 - camera.width / 2) * camera.pixel\n    y = (row + 0.5 -", "column - camera.width / 2) * camera.pixel\n    y = (row -", ("half_a_pixel_top_left",)),
+    StudentMistake(
+        "absorption forgotten",
+        "    if medium is None or medium.dielectric.absorption is None:\n        return total\n",
+        "    return total\n",
+        ("nothing_absorbed",),
+    ),
+    StudentMistake(
+        "linear absorption", "exp(-sigma * distance)", "max(0.0, 1 - sigma * distance)", ("linear_absorption",)
+    ),
+    StudentMistake(
+        "gradient upside down", "k = (direction[1] + 1) / 2", "k = (1 - direction[1]) / 2", ("gradient_upside_down",)
+    ),
+    StudentMistake(
+        "normals not turned",
+        "        normal = scale(-1, normal)\n",
+        "        pass\n",
+        ("normal_not_turned_to_the_viewer",),
+    ),
+    StudentMistake(
+        "mirrored",
+        "x = (column + 0.5 - camera.width / 2) * camera.pixel",
+        "x = -(column + 0.5 - camera.width / 2) * camera.pixel",
+        ("mirrored",),
+    ),
+    StudentMistake(
+        "rows in the wrong order",
+        "for row in reversed(range(camera.height)):",
+        "for row in range(camera.height):",
+        ("upside_down",),
+    ),
+    StudentMistake(
+        "corners of pixels",
+        "column + 0.5 - camera.width / 2) * camera.pixel\n    y = (row + 0.5 -",
+        "column - camera.width / 2) * camera.pixel\n    y = (row -",
+        ("half_a_pixel_top_left",),
+    ),
     StudentMistake(
         "gamma for beauty",
         "values += radiance(scene, camera_ray(camera, column, row), camera.inside, scene.max_depth)",
-        "values += (value ** (1 / 2.2) for value in radiance(scene, camera_ray(camera, column, row), camera.inside, scene.max_depth))",
+        "values += (value ** (1 / 2.2) for value in "
+        "radiance(scene, camera_ray(camera, column, row), camera.inside, scene.max_depth))",
         ("power_in_a_linear_file",),
     ),
     StudentMistake(
@@ -109,8 +180,18 @@ MISTAKES = (
         "values += radiance(scene, camera_ray(camera, column, row), camera.inside, scene.max_depth)[::-1]",
         ("channels_as_BGR",),
     ),
-    StudentMistake("normals bent upward", "normal = unit(subtract(point, primitive.center))", "normal = unit(add(subtract(point, primitive.center), (0, 0.2, 0)))", ()),
-    StudentMistake("reflections fade with the square of the way", "multiply(material.mirror, radiance(", "multiply(scale(1 / (1 + distance * distance), material.mirror), radiance(", ()),
+    StudentMistake(
+        "normals bent upward",
+        "normal = unit(subtract(point, primitive.center))",
+        "normal = unit(add(subtract(point, primitive.center), (0, 0.2, 0)))",
+        (),
+    ),
+    StudentMistake(
+        "reflections fade with the square of the way",
+        "multiply(material.mirror, radiance(",
+        "multiply(scale(1 / (1 + distance * distance), material.mirror), radiance(",
+        (),
+    ),
     StudentMistake("lights blink by their order", "for light in scene.lights:", "for light in scene.lights[::-2]:", ()),
 )
 
