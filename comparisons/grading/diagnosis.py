@@ -77,6 +77,8 @@ class Proof:
     explained: int
     looked_at: int
     contradicted: int
+    left_open: int
+    """Wrong pixels of which its arithmetic leaves everything open; they are not among those looked at."""
 
 
 def evidence_of(
@@ -115,7 +117,7 @@ def agreements(evidence: Evidence, tracers: Sequence[FaultyTracer]) -> dict[Faul
             continue
         low, high = evidence.read(values)
         values = 0.5 * (low + high)
-        unlike = differs_visibly(given, values).any(axis=1)
+        unlike = np.asarray(differs_visibly(given, values).any(axis=1))
         scale = np.maximum(np.maximum(np.abs(given), np.abs(values)), np.finfo(np.float32).tiny)
         with np.errstate(over="ignore", invalid="ignore"):  # of what is infinite, and as far as can be
             apart = (np.abs(given - values) / scale).max(axis=1)
@@ -132,7 +134,7 @@ def proof_of(evidence: Evidence, tracer: FaultyTracer) -> Proof:
     """Hold the wrong pixels to the feasible sets of the faulty tracer, and the right ones to what it computes."""
     pixels = spread(evidence.wrong, MOST_WRONG)
     given = _at(evidence.picture, pixels)
-    explained = np.zeros(len(pixels), dtype=bool)
+    explained, known = np.zeros((2, len(pixels)), dtype=bool)
     for model in evidence.assignment.models:
         left = np.flatnonzero(~explained)
         if not len(left):
@@ -140,7 +142,9 @@ def proof_of(evidence: Evidence, tracer: FaultyTracer) -> Proof:
         allowed = radiance_model(model).in_scene(evidence.scene)
         boxes = outcomes_of(tracer, evidence.scene, evidence.reading, allowed, [pixels[place] for place in left])
         explained[left] = _fits(evidence, given[left], boxes)
-    return Proof(evidence.scene.name, int(explained.sum()), len(pixels), _contradicted(evidence, tracer))
+        known[left] |= np.array([bool(of_pixel) for of_pixel in boxes])
+    counts = int(explained.sum()), int(known.sum()), _contradicted(evidence, tracer), int((~known).sum())
+    return Proof(evidence.scene.name, *counts)
 
 
 def ranked(found: Sequence[dict[FaultyTracer, Agreement]]) -> list[FaultyTracer]:

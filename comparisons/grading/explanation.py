@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from raytruth.scenes.scene import Scene
 
 # Of two mistakes one is the one that explains most by itself; with any other they are as much work as all single ones,
-# so that they are looked for in the two simplest failing scenes.
-MOST_PAIRED = 1
+# so that they are looked for in the two simplest failing scenes, and half as many are held to a proof.
 MOST_PAIR_SCENES = 2
+MOST_PAIRS_PROVED = 3
 
 
 def diagnosis(evidence: Sequence[Evidence], known: Sequence[FaultyTracer], pool: Executor) -> list[Diagnosed]:
@@ -39,7 +39,7 @@ def diagnosis(evidence: Sequence[Evidence], known: Sequence[FaultyTracer], pool:
     likeliest = ranked(found)[:MOST_PROVED]
     told = _proved(looked_at, likeliest, pool)
     if not any(it.explained == it.looked_at for it in told):
-        told += _in_pairs(looked_at[:MOST_PAIR_SCENES], told, known, pool)
+        told += _in_pairs(looked_at, told, known, pool)
     return sorted((it for it in told if it.explained), key=_order)
 
 
@@ -66,19 +66,18 @@ def region_of(wrong: NDArray[np.bool_]) -> tuple[tuple[int, int], tuple[int, int
 def _in_pairs(
     evidence: Sequence[Evidence], alone: Sequence[Diagnosed], known: Sequence[FaultyTracer], pool: Executor
 ) -> list[Diagnosed]:
-    """The pairs that explain more than each of their faults does: one of the likeliest with any other."""
-    likeliest = sorted((it for it in alone if it.explained), key=_order)[:MOST_PAIRED]
-    pairs = {
-        FaultyTracer(tuple(sorted((it.fault, *other.faults))))
-        for it in likeliest
-        for other in known
-        if all_faults()[it.fault].overrides.keys().isdisjoint(other.behaviour().functions)
-    }
-    ordered = sorted(pairs, key=lambda pair: pair.faults)
-    found = list(pool.map(agreements, evidence, [ordered] * len(evidence)))
-    share = {it.fault: it.likelihood for it in alone}
-    proved = _proved(evidence, ranked(found)[:MOST_PROVED], pool)
-    return [it for it in proved if it.likelihood > max(share.get(fault, 0.0) for fault in it.fault.split(" + "))]
+    """The pairs that explain more than each of their faults does: the likeliest with any other."""
+    explained = {it.fault: it.explained for it in alone if it.explained}
+    if not explained:
+        return []
+    first = min((it for it in alone if it.explained), key=_order).fault
+    functions = all_faults()[first].overrides.keys()
+    others = [other for other in known if functions.isdisjoint(other.behaviour().functions)]
+    pairs = [FaultyTracer((first, *other.faults)) for other in others]
+    simplest = evidence[:MOST_PAIR_SCENES]
+    found = list(pool.map(agreements, simplest, [pairs] * len(simplest)))
+    proved = _proved(evidence, ranked(found)[:MOST_PAIRS_PROVED], pool)
+    return [it for it in proved if it.explained > max(explained.get(fault, 0) for fault in it.fault.split(" + "))]
 
 
 def _proved(evidence: Sequence[Evidence], tracers: Sequence[FaultyTracer], pool: Executor) -> list[Diagnosed]:
@@ -90,21 +89,23 @@ def _proved(evidence: Sequence[Evidence], tracers: Sequence[FaultyTracer], pool:
 def _diagnosed(tracer: FaultyTracer, proofs: Sequence[Proof]) -> Diagnosed:
     faults = [all_faults()[name] for name in tracer.faults]
     explained, looked_at = sum(proof.explained for proof in proofs), sum(proof.looked_at for proof in proofs)
-    contradicted = sum(proof.contradicted for proof in proofs)
+    contradicted, left_open = sum(proof.contradicted for proof in proofs), sum(proof.left_open for proof in proofs)
     return Diagnosed(
         fault=tracer.name,
         clause=", ".join(fault.clause for fault in faults),
         words=" ".join(fault.words for fault in faults),
         hint=" ".join(fault.hint for fault in faults),
-        likelihood=explained / looked_at,
+        likelihood=explained / looked_at if looked_at else 0.0,
         explained=explained,
         looked_at=looked_at,
         contradicted=contradicted,
         scenes=tuple(proof.scene for proof in proofs if proof.explained),
-        is_whole=explained == looked_at and contradicted == 0,
+        left_open=left_open,
+        is_whole=explained == looked_at > left_open and contradicted == 0,
     )
 
 
 def _order(told: Diagnosed) -> tuple[bool, float, int, str]:
     """Whole explanations first, single faults before pairs, then those that explain most."""
-    return not told.is_whole, told.contradicted / told.looked_at - told.likelihood, told.fault.count("+"), told.fault
+    against = told.contradicted / max(1, told.looked_at)
+    return not told.is_whole, against - told.likelihood, told.fault.count("+"), told.fault

@@ -21,7 +21,7 @@ from raytruth.reference_tracer.camera_rays import CENTRES, CameraRays
 from raytruth.scenes.camera import PerspectiveCamera
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterator
 
     from raytruth.comparisons.error_models.output_model import OutputModel
     from raytruth.scenes.scene import Scene
@@ -187,83 +187,79 @@ def _exchanged() -> Iterator[GlobalMistake]:
         yield GlobalMistake(f"channels_as_{written}", words, hint, "channels", _channels(order))
 
 
-def _all() -> Iterable[GlobalMistake]:
-    return (
-        GlobalMistake(
-            "mirrored",
-            "Left and right are exchanged.",
-            "Which way does the cross product of forward and up point?",
-            "columns",
-            lambda image: image[:, ::-1],
-        ),
-        GlobalMistake(
-            "upside_down", "The picture stands on its head.", "Where is row 0?", "rows", lambda image: image[::-1]
-        ),
-        *_exchanged(),
-        GlobalMistake(
-            "curve_in_a_linear_file",
-            "The curve of sRGB is applied before a linear file is written.",
-            "What does a reader of this file expect its numbers to mean?",
-            "values",
-            reread=srgb_decoded,
-            output=_encoded,
-        ),
-        GlobalMistake(
-            "curve_forgotten",
-            "Linear values are written to a file that is read as sRGB.",
-            "What does an image viewer do to the values of such a file?",
-            "values",
-            reread=srgb_encoded,
-            output=_not_encoded,
-        ),
-        GlobalMistake(
-            "curve_twice",
-            "The curve of sRGB is applied twice.",
-            "How often is the curve applied on the way to the file?",
-            "values",
-            written=lambda radiance: srgb_encoded(np.clip(radiance, 0.0, 1.0)),
-            output=_only_if_encoded,
-        ),
-        GlobalMistake(
-            "power_in_a_linear_file",
-            "The power 1/2.2 is applied before a linear file is written.",
-            "What does a reader of this file expect its numbers to mean?",
-            "values",
-            written=lambda radiance: np.maximum(radiance, 0.0) ** (1.0 / 2.2),
-            output=_only_if_linear,
-        ),
-        GlobalMistake(
-            "eight_bits",
-            "Values are rounded to 256 steps before floats are written.",
-            "How many different values has your picture?",
-            "numbers",
-            output=_in_bytes,
-        ),
-        GlobalMistake(
-            "codes_for_values",
-            "Codes from 0 to 255 are written where values from 0 to 1 are due.",
-            "How large is white in your file?",
-            "numbers",
-            reread=lambda image: image / 255.0,
-            output=_bytes_as_floats,
-        ),
-        GlobalMistake(
-            "times_255",
-            "Values are multiplied by 255.",
-            "How large is white in your file?",
-            "numbers",
-            reread=lambda image: image / 255.0,
-            output=_scaled,
-        ),
-        GlobalMistake(
-            "other_side_of_the_field_of_view",
-            "The vertical field of view is taken for the horizontal one.",
-            "Between which two edges of the image is the field of view measured?",
-            "camera",
-            scene=_other_side,
-        ),
-        *_half_pixels(),
-    )
-
-
-GLOBAL_MISTAKES: tuple[GlobalMistake, ...] = tuple(_all())
+GLOBAL_MISTAKES: tuple[GlobalMistake, ...] = (
+    GlobalMistake(
+        "mirrored",
+        "Left and right are exchanged.",
+        "Which way does the cross product of forward and up point?",
+        "columns",
+        lambda image: image[:, ::-1],
+    ),
+    GlobalMistake(
+        "upside_down", "The picture stands on its head.", "Where is row 0?", "rows", lambda image: image[::-1]
+    ),
+    *_exchanged(),
+    GlobalMistake(
+        "curve_in_a_linear_file",
+        "The curve of sRGB is applied before a linear file is written.",
+        "What does a reader of this file expect its numbers to mean?",
+        "values",
+        reread=srgb_decoded,
+        output=_encoded,
+    ),
+    GlobalMistake(
+        "curve_forgotten",
+        "Linear values are written to a file that is read as sRGB.",
+        "What does an image viewer do to the values of such a file?",
+        "values",
+        reread=srgb_encoded,
+        output=_not_encoded,
+    ),
+    GlobalMistake(
+        "curve_twice",
+        "The curve of sRGB is applied twice.",
+        "How often is the curve applied on the way to the file?",
+        "values",
+        written=lambda radiance: srgb_encoded(np.clip(radiance, 0.0, 1.0)),
+        output=_only_if_encoded,
+    ),
+    GlobalMistake(
+        "power_in_a_linear_file",
+        "The power 1/2.2 is applied before a linear file is written.",
+        "What does a reader of this file expect its numbers to mean?",
+        "values",
+        written=lambda radiance: np.maximum(radiance, 0.0) ** (1.0 / 2.2),
+        output=_only_if_linear,
+    ),
+    GlobalMistake(
+        "eight_bits",
+        "Values are rounded to 256 steps before floats are written.",
+        "How many different values has your picture?",
+        "numbers",
+        output=_in_bytes,
+    ),
+    GlobalMistake(
+        "codes_for_values",
+        "Codes from 0 to 255 are written where values from 0 to 1 are due.",
+        "How large is white in your file?",
+        "numbers",
+        reread=lambda image: image / 255.0,
+        output=_bytes_as_floats,
+    ),
+    GlobalMistake(
+        "times_255",
+        "Values are multiplied by 255.",
+        "How large is white in your file?",
+        "numbers",
+        reread=lambda image: image / 255.0,
+        output=_scaled,
+    ),
+    GlobalMistake(
+        "other_side_of_the_field_of_view",
+        "The vertical field of view is taken for the horizontal one.",
+        "Between which two edges of the image is the field of view measured?",
+        "camera",
+        scene=_other_side,
+    ),
+    *_half_pixels(),
+)

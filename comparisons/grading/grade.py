@@ -110,9 +110,6 @@ def _record(
     start: float,
 ) -> Grade:
     points = topic_points(assignment, names, {name: it.counts for name, it in pictures.items()})
-    whole = score_of(points.values(), 0, assignment)
-    charges = [whole - score_of(points.values(), 1, assignment) for _ in reading]
-    titles = {topic.id: topic.title for topic in assignment.topics}
     scenes = [_scene_grade(picture, assignment) for picture in pictures.values()]
     scenes += [
         SceneGrade(name=name, purpose="", verdict="grader_error", credit=0.0, reason=f"raytruth itself failed: {why}")
@@ -129,19 +126,31 @@ def _record(
         status="grader_error" if failures else "graded",
         score=score_of(points.values(), len(reading), assignment),
         maximum=score_of([(most, most) for _, most in points.values()], 0, assignment),
-        clauses=tuple(
-            TopicGrade(id=topic, title=titles[topic], points=got, maximum=most, scenes=tuple(names[topic]))
-            for topic, (got, most) in points.items()
-        ),
-        mistakes=tuple(
-            MistakeGrade(name=it.name, words=it.words, hint=it.hint, charge=charge)
-            for it, charge in zip(reading, charges, strict=True)
-        ),
+        clauses=_topic_grades(points, names, assignment),
+        mistakes=_mistake_grades(points, reading, assignment),
         scenes=tuple(sorted(scenes, key=lambda it: it.name)),
         diagnosis=tuple(explained[0]),
         unexplained=explained[1],
         seconds=time.perf_counter() - start,
     )
+
+
+def _topic_grades(
+    points: Mapping[str, tuple[float, float]], names: Mapping[str, Sequence[str]], assignment: Assignment
+) -> tuple[TopicGrade, ...]:
+    titles = {topic.id: topic.title for topic in assignment.topics}
+    return tuple(
+        TopicGrade(id=topic, title=titles[topic], points=got, maximum=most, scenes=tuple(names[topic]))
+        for topic, (got, most) in points.items()
+    )
+
+
+def _mistake_grades(
+    points: Mapping[str, tuple[float, float]], reading: Reading, assignment: Assignment
+) -> tuple[MistakeGrade, ...]:
+    """Each global mistake with an equal part of what all of them cost."""
+    lost = score_of(points.values(), 0, assignment) - score_of(points.values(), len(reading), assignment)
+    return tuple(MistakeGrade(name=it.name, words=it.words, hint=it.hint, charge=lost / len(reading)) for it in reading)
 
 
 def _scene_grade(picture: GradedPicture, assignment: Assignment) -> SceneGrade:

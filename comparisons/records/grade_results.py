@@ -62,9 +62,11 @@ class Diagnosed(Record):
     looked_at: int
     contradicted: int
     """Right pixels of the same scenes that would be wrong with this fault."""
+    left_open: int = 0
+    """Wrong pixels of which nothing can be proved, since the tracer with this fault leaves everything open there."""
     scenes: tuple[str, ...]
     is_whole: bool
-    """Whether it explains every wrong pixel of these scenes and contradicts no right one."""
+    """Whether it explains every wrong pixel looked at, more than are left open, and no right one speaks against it."""
 
 
 class Grade(Record):
