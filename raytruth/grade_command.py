@@ -130,7 +130,10 @@ def _graded(
     """In processes of their own: what fails in one of them is told in the grade."""
     cache_folder()  # what must be told of it is told once, not by each process
     with ProcessPoolExecutor(jobs, get_context("spawn"), start_worker) as pool:
-        return grade_submission(program, assignment, topics, occasion, pool)
+        try:
+            return grade_submission(program, assignment, topics, occasion, pool)
+        finally:
+            pool.shutdown(cancel_futures=True)
 
 
 def _write(graded: Grade, out: Path | None, gradescope: Path | None, junit: Path | None) -> None:
