@@ -27,6 +27,7 @@ ROOMS = (
     "comparisons/judgement",
     "comparisons/matrix",
     "comparisons/kills",
+    "comparisons/grading",
     "specification",
     "reports",
     "raytruth",
