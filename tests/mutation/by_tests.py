@@ -49,6 +49,7 @@ NOT_ABOUT_PHYSICS = {
     "test_certification.py",
     "test_certified_image.py",
     "test_compilation.py",
+    "test_compiled_balls.py",
     "test_compiled_truth.py",
     "test_dependencies.py",
     "test_double_double_balls.py",
