@@ -37,7 +37,7 @@ def grade_lines(grade: Grade) -> list[str]:
 def scene_sentence(scene: SceneGrade) -> str:
     """What came of a scene, and where it is wrong."""
     if scene.region is None:
-        return f"{scene.reason}."
+        return f"{scene.reason.rstrip('.')}."
     left, right, top, bottom = scene.region
     return f"{scene.reason}, in columns {left} to {right}, rows {top} to {bottom}."
 
