@@ -48,7 +48,8 @@ def diagnosis_sentence(told: Diagnosed) -> str:
     proof = f"{told.explained} of {told.looked_at} wrong pixels ({share:.0f} %) are what a tracer gives with"
     which = f"the mistake {told.fault}: {told.words}" if told.words else "one known mistake."
     against = f" But {told.contradicted} right pixels speak against it." if told.contradicted else ""
-    return f"{told.clause}: {proof} {which}{against} {told.hint}"
+    open_ones = f" Of {told.left_open} more nothing can be proved." if told.left_open else ""
+    return f"{told.clause}: {proof} {which}{against}{open_ones} {told.hint}"
 
 
 def _mistake(told: MistakeGrade) -> str:

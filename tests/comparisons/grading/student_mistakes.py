@@ -232,7 +232,7 @@ def table_row(mistake: StudentMistake, grade: Grade) -> str:
     first = f"`{told[0]}`" if told else "-"
     known_as = ", ".join(f"`{name}`" for name in mistake.known_as) or "not in the catalogue"
     verdict = "" if is_known else "none of the known mistakes explains this"
-    return f"| {mistake.name} | {known_as} | {grade.score:.1f} | {first} | {proved[0]} | {place} | {verdict} |"
+    return f"| {mistake.name} | {known_as} | {first} | {proved[0]} | {place} | {verdict} |"
 
 
 def main() -> None:
@@ -240,7 +240,7 @@ def main() -> None:
     path = assignment_path(STARTING)
     assignment = load_assignment(path)
     topics = scenes_of(assignment, path.parent)
-    print("| mistake | in the catalogue | points | told first | proved | place | |\n|---|---|--:|---|--:|--:|---|")
+    print("| mistake | in the catalogue | told first | proved | place of the true one | |\n|---|---|---|--:|--:|---|")
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
         for mistake in MISTAKES:
             with TemporaryDirectory() as folder:
