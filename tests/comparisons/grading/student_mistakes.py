@@ -231,7 +231,7 @@ def table_row(mistake: StudentMistake, grade: Grade) -> str:
     is_known = not grade.unexplained or any(it.is_whole for it in grade.diagnosis)
     first = f"`{told[0]}`" if told else "-"
     known_as = ", ".join(f"`{name}`" for name in mistake.known_as) or "not in the catalogue"
-    verdict = "" if is_known else "none of the known mistakes explains this"
+    verdict = "" if is_known else "no known mistake explains all of it"
     return f"| {mistake.name} | {known_as} | {first} | {proved[0]} | {place} | {verdict} |"
 
 
