@@ -37,7 +37,7 @@ def grade_lines(grade: Grade) -> list[str]:
 def scene_sentence(scene: SceneGrade) -> str:
     """What came of a scene, and where it is wrong."""
     if scene.region is None:
-        return f"{scene.reason}."
+        return f"{scene.reason.rstrip('.')}."
     left, right, top, bottom = scene.region
     return f"{scene.reason}, in columns {left} to {right}, rows {top} to {bottom}."
 
@@ -48,7 +48,8 @@ def diagnosis_sentence(told: Diagnosed) -> str:
     proof = f"{told.explained} of {told.looked_at} wrong pixels ({share:.0f} %) are what a tracer gives with"
     which = f"the mistake {told.fault}: {told.words}" if told.words else "one known mistake."
     against = f" But {told.contradicted} right pixels speak against it." if told.contradicted else ""
-    return f"{told.clause}: {proof} {which}{against} {told.hint}"
+    open_ones = f" Of {told.left_open} more nothing can be proved." if told.left_open else ""
+    return f"{told.clause}: {proof} {which}{against}{open_ones} {told.hint}"
 
 
 def _mistake(told: MistakeGrade) -> str:

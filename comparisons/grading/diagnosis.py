@@ -12,6 +12,7 @@ from raytruth.comparisons.grading.faulty_tracers import FaultyTracer, outcomes_o
 from raytruth.comparisons.grading.global_mistakes import corrected, output_of, written_values
 from raytruth.comparisons.grading.scene_grading import expectations_of
 from raytruth.comparisons.measures.visibility import differs_visibly
+from raytruth.comparisons.processes.interruption import at_work
 from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
@@ -103,6 +104,7 @@ def spread(mask: NDArray[np.bool_], most: int) -> list[tuple[int, int]]:
     return [(int(column), int(row)) for row, column in chosen]
 
 
+@at_work()
 def agreements(evidence: Evidence, tracers: Sequence[FaultyTracer]) -> dict[FaultyTracer, Agreement]:
     """How each faulty tracer that differs in this scene agrees with the picture at sampled pixels."""
     wrong, right = spread(evidence.wrong, SAMPLED), spread(evidence.right, SAMPLED)
@@ -130,6 +132,7 @@ def agreements(evidence: Evidence, tracers: Sequence[FaultyTracer]) -> dict[Faul
     return found
 
 
+@at_work()
 def proof_of(evidence: Evidence, tracer: FaultyTracer) -> Proof:
     """Hold the wrong pixels to the feasible sets of the faulty tracer, and the right ones to what it computes."""
     pixels = spread(evidence.wrong, MOST_WRONG)

@@ -43,15 +43,19 @@ def diagnosis(evidence: Sequence[Evidence], known: Sequence[FaultyTracer], pool:
     return sorted((it for it in told if it.explained), key=_order)
 
 
-def unexplained(evidence: Sequence[Evidence], passing: Iterable[Scene]) -> str:
-    """Where what no known mistake explains shows first: the simplest failing scene, its region, and its features."""
+def unexplained(evidence: Sequence[Evidence], passing: Iterable[Scene], *, in_part: bool = False) -> str:
+    """Where what no known mistake explains shows first: the simplest failing scene, its region, and its features.
+
+    `in_part`: some of it is explained.
+    """
+    none = "No known mistake explains all of this." if in_part else "None of the known mistakes explains this."
     first = evidence[0]
     known = frozenset[str]().union(*(required_features(scene) for scene in passing))
     own = sorted(required_features(first.scene) - known)
     columns, rows = region_of(first.wrong)
     told = (
-        f"None of the known mistakes explains this. It shows first in {first.scene.name}, in {int(first.wrong.sum())} "
-        f"pixels, columns {columns[0]} to {columns[1]}, rows {rows[0]} to {rows[1]}"
+        f"{none} It shows first in {first.scene.name}, in {int(first.wrong.sum())} pixels, "
+        f"columns {columns[0]} to {columns[1]}, rows {rows[0]} to {rows[1]}"
     )
     features = ", ".join(name.lower().replace("_", " ") for name in own)
     return f"{told}; of its features no scene that is right needs {features}." if own else f"{told}."
@@ -101,11 +105,11 @@ def _diagnosed(tracer: FaultyTracer, proofs: Sequence[Proof]) -> Diagnosed:
         contradicted=contradicted,
         scenes=tuple(proof.scene for proof in proofs if proof.explained),
         left_open=left_open,
-        is_whole=explained == looked_at > left_open and contradicted == 0,
+        is_whole=explained == looked_at > 0 and contradicted == 0,
     )
 
 
-def _order(told: Diagnosed) -> tuple[bool, float, int, str]:
-    """Whole explanations first, single faults before pairs, then those that explain most."""
+def _order(told: Diagnosed) -> tuple[bool, float, int, int, str]:
+    """Whole explanations first, then those that explain most; of equals single faults before pairs."""
     against = told.contradicted / max(1, told.looked_at)
-    return not told.is_whole, against - told.likelihood, told.fault.count("+"), told.fault
+    return not told.is_whole, against - told.likelihood, -told.explained, told.fault.count("+"), told.fault

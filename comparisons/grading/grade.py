@@ -80,7 +80,7 @@ def diagnose(
     if any(it.is_whole for it in told):
         return told, ""
     right = [it.scene for it in pictures if it.submitted.image is not None and not it.counts.wrong]
-    return told, unexplained(evidence, right)
+    return told, unexplained(evidence, right, in_part=bool(told))
 
 
 def _reread(

@@ -20,6 +20,7 @@ from raytruth.comparisons.grading.global_mistakes import (
 from raytruth.comparisons.grading.scene_expectations import SceneExpectations
 from raytruth.comparisons.grading.submission import submitted
 from raytruth.comparisons.measures.visibility import differs_visibly
+from raytruth.comparisons.processes.interruption import at_work
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.rendering import render
 
@@ -53,6 +54,7 @@ def expectations_of(scene: Scene, assignment: Assignment) -> SceneExpectations:
     return SceneExpectations(scene, [radiance_model(model) for model in assignment.models])
 
 
+@at_work()
 def graded_picture(
     program: ProgramRenderer, assignment: Assignment, scene: Scene, declared: OutputModel
 ) -> GradedPicture:
@@ -60,6 +62,7 @@ def graded_picture(
     return judged_as(AS_IT_IS, submitted(program, scene), assignment, scene, declared)
 
 
+@at_work()
 def judged_as(
     reading: Reading, given: Submitted, assignment: Assignment, scene: Scene, declared: OutputModel
 ) -> GradedPicture:
@@ -71,6 +74,7 @@ def judged_as(
     return GradedPicture(scene, given, counts_of(fit), fit.right, fit.wrong)
 
 
+@at_work()
 def counts_by_reading(
     image: NDArray[np.float64],
     assignment: Assignment,
@@ -83,6 +87,7 @@ def counts_by_reading(
     return {place: counts_of(expectations.fit(image, declared, known[place])) for place in places}
 
 
+@at_work()
 def visible_agreement(image: NDArray[np.float64], scene: Scene, declared: OutputModel) -> dict[int, int]:
     """For each reading how many pixels look like what the tracer renders for it, which takes no feasible set.
 

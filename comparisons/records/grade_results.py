@@ -66,7 +66,7 @@ class Diagnosed(Record):
     """Wrong pixels of which nothing can be proved, since the tracer with this fault leaves everything open there."""
     scenes: tuple[str, ...]
     is_whole: bool
-    """Whether it explains every wrong pixel looked at, more than are left open, and no right one speaks against it."""
+    """Whether it explains every wrong pixel that was looked at, and no right one speaks against it."""
 
 
 class Grade(Record):

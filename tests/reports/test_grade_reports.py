@@ -44,6 +44,7 @@ GRADE = Grade(
             explained=3,
             looked_at=4,
             contradicted=1,
+            left_open=7,
             scenes=("wrong",),
             is_whole=False,
         ),
@@ -66,7 +67,7 @@ def test_lines_tell_points_verdicts_and_proofs() -> None:
     assert lines[1:3] == ["  One: 50 of 50", "  Two: 16.5 of 50"]
     assert "  wrong wrong: 9 are wrong, in columns 1 to 2, rows 3 to 4." in lines
     proof = "  ILL-3: 3 of 4 wrong pixels (75 %) are what a tracer gives with the mistake no_pi: There is no π."
-    assert f"{proof} But 1 right pixels speak against it. What divides?" in lines
+    assert f"{proof} But 1 right pixels speak against it. Of 7 more nothing can be proved. What divides?" in lines
     assert lines[-1].strip() == GRADE.unexplained
     assert [points(value) for value in (0.0, 12.0, 12.345, 0.1)] == ["0", "12", "12.35", "0.1"]
 

@@ -1,18 +1,28 @@
 """Mistakes switched on in the example tracer in Python, each written by hand as a student makes it.
 
 They are edits of the student's own text, not of the tracer's source, and were written without the catalogue's edits.
+`python -m tests.comparisons.grading.student_mistakes` grades them all and prints the table of docs/teaching.md.
 """
 
 from __future__ import annotations
 
+import os
 import shutil
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+from raytruth.comparisons.grading.assignment_file import STARTING, assignment_path, load_assignment
+from raytruth.comparisons.grading.assignment_scenes import scenes_of
+from raytruth.comparisons.grading.grade import Occasion, grade_submission
+from raytruth.programs import program_of_file
 from tests.rooms import ROOT
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from raytruth.comparisons.records.grade_results import Grade
 
 EXAMPLE = ROOT / "examples" / "tracers" / "python"
 
@@ -211,3 +221,32 @@ def write_submission(mistakes: tuple[StudentMistake, ...], folder: Path) -> Path
             raise ValueError(f"{mistake.name}: found {mistake.old!r} {text.count(mistake.old)} times")
         path.write_text(text.replace(mistake.old, mistake.new), encoding="utf-8")
     return folder / "tracer.toml"
+
+
+def table_row(mistake: StudentMistake, grade: Grade) -> str:
+    """A row of the table: what was told of a mistake, and where the true name stands in it."""
+    told = [it.name for it in grade.mistakes] + [it.fault for it in grade.diagnosis]
+    place = next((str(number) for number, name in enumerate(told, start=1) if name in mistake.known_as), "-")
+    proved = [f"{it.explained} of {it.looked_at}" for it in grade.diagnosis if it.fault == told[0]] or ["-"]
+    is_known = not grade.unexplained or any(it.is_whole for it in grade.diagnosis)
+    first = f"`{told[0]}`" if told else "-"
+    known_as = ", ".join(f"`{name}`" for name in mistake.known_as) or "not in the catalogue"
+    verdict = "" if is_known else "no known mistake explains all of it"
+    return f"| {mistake.name} | {known_as} | {first} | {proved[0]} | {place} | {verdict} |"
+
+
+def main() -> None:
+    """Grade every mistake, and print its row as soon as it is known."""
+    path = assignment_path(STARTING)
+    assignment = load_assignment(path)
+    topics = scenes_of(assignment, path.parent)
+    print("| mistake | in the catalogue | told first | proved | place of the true one | |\n|---|---|---|--:|--:|---|")
+    with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as pool:
+        for mistake in MISTAKES:
+            with TemporaryDirectory() as folder:
+                program = program_of_file(write_submission((mistake,), Path(folder)))
+                print(table_row(mistake, grade_submission(program, assignment, topics, Occasion(), pool)), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -98,6 +98,7 @@ def test_what_nobody_has_thought_of_is_said_to_be_unknown_with_its_place() -> No
     assert "in 9 pixels, columns 6 to 8, rows 2 to 4" in told
     assert "point lights" in told
     assert "of its features" not in unexplained([shown], [small_scene()])
+    assert unexplained([shown], [], in_part=True).startswith("No known mistake explains all of this.")
 
 
 def test_the_simplest_scenes_come_first_and_right_ones_not_at_all() -> None:
