@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.renderers.program.declaration import Declaration, Rays
 from raytruth.comparisons.renderers.program.declared_model import contradictions, error_model_of_declaration
 
