@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from raytruth.comparisons.matrix.probe import Found, most_bits, pictures_of, tightest_declaration, verdicts
+from raytruth.comparisons.matrix.probe import most_bits, pictures_of, tightest_declaration, verdicts
 from raytruth.comparisons.matrix.quick_suite import quick_scenes, small
 from raytruth.comparisons.records.renderings import RendererError
 from raytruth.errors import UsageError
@@ -13,14 +13,16 @@ from raytruth.programs import programs_of
 from raytruth.scenes.library import open_scene
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
+    from raytruth.comparisons.matrix.probe import Found, Picture
     from raytruth.comparisons.renderers.program.declaration import Declaration
 
 FAILED = 1
 
 
-def probe(file: Path, *, as_json: bool) -> int:
+def tell_tightest_declaration(file: Path, *, as_json: bool) -> int:
     """Tell the tightest declaration under which the program passes the quick suite; exit status 1 if there is none.
 
     Raises UsageError for a file that declares no program, and for a program that draws random numbers, or fails to
@@ -49,7 +51,7 @@ def probe(file: Path, *, as_json: bool) -> int:
     return 0 if counts else FAILED
 
 
-def _counts(declaration: Declaration, found: Found, pictures: Any) -> dict[str, int]:
+def _counts(declaration: Declaration, found: Found, pictures: Sequence[Picture]) -> dict[str, int]:
     """How many pictures get which verdict; empty where no declaration was found."""
     if found.bits is None:
         return {}
@@ -74,7 +76,8 @@ def _lines(declaration: Declaration, found: Found) -> list[str]:
 
 
 def _keys(table: dict[str, Any]) -> list[str]:
-    return [f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value:g}" for key, value in table.items()]
+    """A number has all its digits, as it is the declared one."""
+    return [f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value!r}" for key, value in table.items()]
 
 
 def _obstacle(found: Found) -> dict[str, Any] | None:

@@ -27,7 +27,7 @@ from raytruth.comparisons.renderers.protocol import shown_error_model, versions_
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time
 from raytruth.output import print_json, progress, say, tell
-from raytruth.probe_command import probe as tell_declaration
+from raytruth.probe_command import tell_tightest_declaration
 from raytruth.programs import programs_of
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.requirements import required_features
@@ -74,7 +74,7 @@ def renderers(
     elif init is not None:
         say(f"Wrote {_start(init)}; edit it, then: raytruth run --quick --renderer-file {init}.toml")
     elif probe is not None:
-        return tell_declaration(probe, as_json=as_json)
+        return tell_tightest_declaration(probe, as_json=as_json)
     else:
         _show(names, renderer_file, as_json=as_json)
     return 0

@@ -6,6 +6,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 from raytruth import probe_command
+from raytruth.comparisons.matrix.probe import Found
+from raytruth.comparisons.renderers.program.declaration import LeavingRays, Rays
+from raytruth.comparisons.renderers.program.declaration_file import checked_declaration
 from tests.comparisons.renderers.program.scripts import write_script
 from tests.raytruth.running import document, refusal, run
 
@@ -53,6 +56,17 @@ def test_what_holds_is_told_as_lines_of_the_file(
     ]
     told = document(capsys, "renderers", "--probe", str(path))
     assert told == {"lines": lines.splitlines(), "verdicts": {"pass": 1}, "decided_by": None}
+
+
+def test_a_declared_offset_that_decides_is_told_with_all_its_digits() -> None:
+    rays = Rays(least_distance=1.0 / 3.0, shadow=LeavingRays(offset=1e-7, along="ray"))
+    found = Found(rays, 20, None)
+    declaration = checked_declaration({"name": "mine", "command": ["./mine", "{scene}", "{output}"]}, "mine.toml")
+    told = tomllib.loads("\n".join(probe_command._lines(declaration, found)))
+    assert told == {
+        "arithmetic": {"bits": 20},
+        "rays": {"least_distance": 1.0 / 3.0, "shadow": {"offset": 1e-7, "along": "ray"}},
+    }
 
 
 def test_a_program_that_cannot_be_probed_is_refused(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
