@@ -24,6 +24,7 @@ from raytruth.reference_tracer.arithmetics.float_balls import (
     WIDE_RADICAND,
     Ball,
 )
+from raytruth.reference_tracer.compiler.exact_errors import product_error
 
 U_SQUARED = UNIT_ROUNDOFF * UNIT_ROUNDOFF
 # The published bounds in u², rounded up to leave some u² for u³ and for what underflows: 3 (theorem 3.1), 7 (theorem
@@ -36,8 +37,6 @@ LOST_OF_ROOT = 4 * U_SQUARED
 
 # Between these, squares and quotients and the errors of their roundings, 2^-106 as large, are normal numbers.
 LEAST, MOST = 2.0**-400, 2.0**400
-# Veltkamp's constant: 27 of 53 bits go to the upper part (Dekker 1971).
-SPLITTER = 2.0**27 + 1.0
 
 
 class DoubleDoubleBall(NamedTuple):
@@ -178,14 +177,4 @@ def two_sum(a: float, b: float) -> DoubleWord:
 
 def two_product(a: float, b: float) -> DoubleWord:
     """The product, exactly, if nothing overflows and its last bit is a float (Dekker 1971, after Veltkamp)."""
-    product = a * b
-    first, second = split(a), split(b)
-    rest = ((first.high * second.high - product) + first.high * second.low) + first.low * second.high
-    return DoubleWord(product, rest + first.low * second.low)
-
-
-def split(a: float) -> DoubleWord:
-    """Two floats of 26 bits at most, with signs, whose sum is a: their products are exact (Veltkamp; Dekker 1971)."""
-    scaled = SPLITTER * a
-    high = scaled - (scaled - a)
-    return DoubleWord(high, a - high)
+    return DoubleWord(a * b, product_error(a, b))

@@ -15,16 +15,29 @@ from raytruth.reference_tracer.arithmetics.double_double_balls import (
     to_float_ball,
 )
 from raytruth.reference_tracer.arithmetics.float_ball_comparisons import PARITY_KNOWN_BELOW, UNDECIDED, WholeNumbers
-from raytruth.reference_tracer.arithmetics.float_balls import LARGEST, Ball
+from raytruth.reference_tracer.arithmetics.float_balls import LARGEST, OUTWARD, Ball
 
 ZERO = Ball(0.0, 0.0)
+
+
+def are_apart(a: DoubleDoubleBall, b: DoubleDoubleBall) -> bool:
+    """Whether a and b are finite, and so far from each other that the order of their upper parts is that of all points.
+
+    The rounded difference of the upper parts errs by at most u times itself, and the rest of both numbers is at most
+    the sum of four terms, made larger by more than it loses.
+    """
+    difference = abs(a.high - b.high)
+    rest = (abs(a.low) + abs(b.low) + a.radius + b.radius) * OUTWARD
+    return rest < difference <= LARGEST  # not so if one of them is NaN
 
 
 def less(a: DoubleDoubleBall, b: DoubleDoubleBall) -> int:
     """Whether a < b: whether the difference a - b is below 0.
 
-    Balls of one float decide that most of the time, and quickly; infinities they decide always.
+    The upper parts decide that most of the time, and quickly; infinities are balls of one float.
     """
+    if are_apart(a, b):
+        return 1 if a.high < b.high else 0
     roughly = float_ball_comparisons.less(to_float_ball(a), to_float_ball(b))
     if roughly != UNDECIDED:
         return roughly
@@ -39,6 +52,8 @@ def less_or_equal(a: DoubleDoubleBall, b: DoubleDoubleBall) -> int:
 
 def equal(a: DoubleDoubleBall, b: DoubleDoubleBall) -> int:
     """Whether a = b: certain only of exact numbers."""
+    if are_apart(a, b):
+        return 0
     if not (abs(a.high) <= LARGEST and abs(b.high) <= LARGEST):
         return float_ball_comparisons.equal(to_float_ball(a), to_float_ball(b))
     return float_ball_comparisons.equal(to_float_ball(sub(a, b, 0.0)), ZERO)

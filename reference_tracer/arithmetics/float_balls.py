@@ -47,6 +47,8 @@ UNKNOWN = Ball(math.nan, math.inf)
 
 def rounded(middle: float, radius: float, roundoff: float) -> Ball:
     """A finite ball times 1 ± roundoff, rounded outward: |x·(1 + δ) - m| ≤ r + roundoff·|m| + roundoff·r."""
+    if roundoff == 0.0:  # the compiler may not leave out a product with 0, which may be NaN
+        return Ball(middle, radius * OUTWARD + UNDERFLOW)
     return Ball(middle, (radius + roundoff * abs(middle) + roundoff * radius) * OUTWARD + UNDERFLOW)
 
 

@@ -8,5 +8,6 @@
 5. `object_files.py`, `dependencies.py`: object files kept on disk, and what they depend on.
 6. `loading.py`: linked into this process, and called.
 
-`compilation.py` is all of them in a row; `questions.py` is what compiled code asks of a call, and tells it.
+`compilation.py` is all of them in a row; `questions.py` is what compiled code asks of a call, and tells it;
+`exact_errors.py` is what takes one instruction where the processor has it.
 """

@@ -22,6 +22,12 @@ def processor() -> tuple[str, ...]:
     return llvmlite.__version__, binding.get_process_triple(), binding.get_host_cpu_name(), features
 
 
+def has_fused_product() -> bool:
+    """Whether the processor has an instruction for a·b + c that rounds once: x86 names it, 64-bit ARM always has it."""
+    _, triple, _, features = processor()
+    return "+fma" in features.split(",") or triple.startswith(("aarch64", "arm64"))
+
+
 @functools.cache
 def target_machine() -> Any:
     """The processor, as LLVM sees it."""

@@ -12,7 +12,7 @@ from llvmlite import ir
 from raytruth.reference_tracer.compiler.types import Boolean, Float, Integer, Leaf, Pointer
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
 POINTER: Any = ir.PointerType()
 INTEGER: Any = ir.IntType(64)
@@ -61,18 +61,29 @@ def _of_floats(builder: Any, name: str, operands: Sequence[Any], kind: Float) ->
         return builder.select(builder.fcmp_ordered(">" if name == "max" else "<", second, first), second, first)
     if name == "isnan":
         return builder.fcmp_unordered("uno", operands[0], operands[0])
-    if name == "floor":
-        return _floor(builder, operands[0], kind)
+    if name in COMPOSED:
+        return COMPOSED[name](builder, operands, kind)
     function = _library_function if name in LIBRARY else _intrinsic
     return builder.call(function(builder.module, name, kind, len(operands)), operands)
 
 
-def _floor(builder: Any, value: Any, kind: Float) -> Any:
+def _floor(builder: Any, operands: Sequence[Any], kind: Float) -> Any:
     """The whole number below a float; -2^63, which is even as all large floats are, where 64 bits do not hold it."""
+    value = operands[0]
     limit = ir.Constant(machine_type(kind), TOO_LARGE)
     fits = builder.fcmp_ordered("<", builder.call(_intrinsic(builder.module, "fabs", kind, 1), [value]), limit)
     whole = builder.fptosi(builder.call(_intrinsic(builder.module, "floor", kind, 1), [value]), INTEGER)
     return builder.select(fits, whole, ir.Constant(INTEGER, -(2**63)))
+
+
+def _product_error(builder: Any, operands: Sequence[Any], kind: Float) -> Any:
+    """What rounding the product loses (exact_errors.py)."""
+    product = builder.fmul(*operands)
+    return builder.call(_intrinsic(builder.module, "fma", kind, 3), [*operands, builder.fneg(product)])
+
+
+COMPOSED: dict[str, Callable[[Any, Sequence[Any], Float], Any]] = {"floor": _floor, "product_error": _product_error}
+"""What is some instructions of the machine."""
 
 
 def _of_integers(builder: Any, name: str, operands: Sequence[Any]) -> Any:
@@ -104,7 +115,7 @@ def _library_function(module: Any, name: str, kind: Float, count: int) -> Any:
 
 
 def _intrinsic(module: Any, name: str, kind: Float, count: int) -> Any:
-    """Of LLVM, all of them exactly rounded or exact: sqrt, fabs, floor, copysign."""
+    """Of LLVM, all of them exactly rounded or exact: sqrt, fabs, floor, copysign, fma."""
     return _declared(module, f"llvm.{name}.f{kind.bits}", kind, count)
 
 

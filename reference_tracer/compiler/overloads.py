@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 COMPARISONS = {"lt", "le", "gt", "ge", "eq", "ne"}
 SWAPPED = {"gt": "lt", "ge": "le"}
 """a > b is b < a: a table of operations need not have both."""
-OF_FLOATS = {"add", "sub", "mul", "truediv", "neg", "pow", "sqrt", "exp", "tan", "fabs", "copysign"}
+OF_FLOATS = {"add", "sub", "mul", "truediv", "neg", "pow", "sqrt", "exp", "tan", "fabs", "copysign", "product_error"}
 OF_INTEGERS = {"add", "sub", "mul", "mod", "floordiv", "neg", "and_", "or_", "lshift", "rshift"}
 FUNCTIONS: dict[Any, str] = {
     abs: "abs",

@@ -6,6 +6,8 @@ import ast
 from types import FunctionType, ModuleType
 from typing import TYPE_CHECKING, Any
 
+from raytruth.reference_tracer.compiler.exact_errors import product_error
+from raytruth.reference_tracer.compiler.machine_code import has_fused_product
 from raytruth.reference_tracer.compiler.names import Function, function_of_python
 from raytruth.reference_tracer.compiler.overloads import (
     FUNCTIONS,
@@ -178,6 +180,8 @@ class ExpressionTyper:
             return Build(tuple(arguments), kind)
         if function in QUESTIONS and not arguments:
             return Question(function.__name__, QUESTIONS[function])
+        if function is product_error and has_fused_product():
+            return self._applied("product_error", arguments)
         if callable(function) and function in FUNCTIONS:
             return self._applied(FUNCTIONS[function], arguments)
         if isinstance(function, FunctionType):
