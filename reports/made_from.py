@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from raytruth.comparisons.records.results import RESULTS_FILE
 from raytruth.reports.kills import PAGE_FILE
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 OURS = Path(__file__).parent
 # The digest stands in the head of the page.
@@ -20,12 +25,22 @@ def made_from(directory: Path) -> str:
     """
     digest = hashlib.sha256((directory / RESULTS_FILE).read_bytes())
     digest.update(str((directory / PAGE_FILE).exists()).encode())
-    for path in sorted((directory / "cells").rglob("*")):
-        status = path.stat()
+    for path in sorted(_finished_files(directory / "cells")):
+        try:
+            status = path.stat()
+        except FileNotFoundError:  # a run goes on meanwhile, and has just judged the cell anew
+            continue
         digest.update(f"{path.relative_to(directory)} {status.st_size} {status.st_mtime_ns}\n".encode())
     for path in sorted([*OURS.rglob("*.py"), *(OURS / "templates").iterdir()]):
         digest.update(path.read_bytes())
     return digest.hexdigest()
+
+
+def _finished_files(folder: Path) -> Iterator[Path]:
+    """All files below it but those that a run is writing, whose names or folders begin with a dot."""
+    for parent, folders, files in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        yield from (Path(parent, name) for name in files if not name.startswith("."))
 
 
 def is_made_from(page: Path, digest: str) -> bool:

@@ -50,3 +50,24 @@ def test_a_report_that_is_missing_or_of_another_origin_is_not_current(directory:
     page = write_html_report(directory)
     assert is_made_from(page, made_from(directory))
     assert not is_made_from(page, "another")
+
+
+def test_what_a_run_is_writing_or_replacing_meanwhile_does_not_count(
+    directory: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A run shows its report while other cells are judged: files there come and go between listing and reading."""
+    digest = made_from(directory)
+    unfinished = directory / "cells" / "scene" / ".unfinished-renderer"
+    unfinished.mkdir(parents=True)
+    (unfinished / "picture.png").write_bytes(b"half a pict")
+    assert made_from(directory) == digest
+    gone = next(directory.rglob("log.txt"))
+    status = type(gone).stat
+
+    def vanishes(path: Path, **options: bool) -> os.stat_result:
+        if path == gone:
+            path.unlink(missing_ok=True)
+        return status(path, **options)
+
+    monkeypatch.setattr(type(gone), "stat", vanishes)
+    assert made_from(directory) != digest
