@@ -1,0 +1,85 @@
+"""What a program may see in a sandbox: the system's files, what is installed on the PATH, and its own files."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+SYSTEM = tuple(
+    Path(name)
+    for name in ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/etc", "/opt", "/nix/store")
+)
+"""Programs, libraries and their settings. Where people keep their own things (/home, /root, /srv, /var, …) is not here."""
+
+PROCESSORS = Path("/sys/devices/system/cpu")
+"""How many processors there are, which runtimes ask."""
+
+# Where a person's own programs are installed beside other things of theirs, of which only these are shown.
+_PARTS_OF_AN_INSTALLATION = ("bin", "lib", "lib64")
+
+
+def installed(environment_path: str | None = None) -> tuple[Path, ...]:
+    """The folders of installed programs outside the system's: of all on the PATH, of what links there lead to, and of
+    the Python that runs us.
+    """
+    folders = [Path(name) for name in (environment_path or os.environ.get("PATH", "")).split(os.pathsep) if name]
+    found = [Path(sys.prefix), Path(sys.base_prefix)]
+    for folder in folders:
+        if folder.is_absolute() and folder.is_dir() and not _is_of_the_system(folder):
+            found += _installation(folder)
+            found += [
+                part
+                for link in folder.iterdir()
+                if link.is_symlink() and link.resolve().is_file()
+                for part in _installation(link.resolve().parent)
+            ]
+    return tuple(dict.fromkeys(path for path in found if not _is_of_the_system(path)))
+
+
+def own_files(named: Iterable[Path]) -> tuple[Path, ...]:
+    """The folders of the files that a command names, with all below; of one in a home folder or above the file alone."""
+    found = []
+    for path in named:
+        folder = path.parent
+        if not _is_of_the_system(path):
+            found.append(path if Path.home().is_relative_to(folder.resolve()) else folder)
+    return tuple(dict.fromkeys(found))
+
+
+def without_hidden(visible: Iterable[Path], hidden: Iterable[Path]) -> tuple[Path, ...]:
+    """The visible paths with what is hidden taken out: of a folder that holds such a path, its other entries.
+
+    A path is hidden with all below it. What is visible inside a hidden folder stays visible: a submission may lie in
+    the home folder.
+    """
+    concealed = [path.resolve() for path in hidden]
+    return tuple(dict.fromkeys(part for path in visible for part in _parts(path, concealed)))
+
+
+def _parts(path: Path, concealed: list[Path]) -> list[Path]:
+    real = path.resolve()
+    if real in concealed:
+        return []
+    if not any(secret.is_relative_to(real) for secret in concealed):
+        return [path]
+    return [part for entry in sorted(path.iterdir()) if entry.exists() for part in _parts(entry, concealed)]
+
+
+def _installation(folder: Path) -> list[Path]:
+    """What belongs to the programs in a folder called bin: the folder around it, but not a home folder with all in it."""
+    around = folder.parent
+    if folder.name != "bin":
+        return [folder]
+    if Path.home().is_relative_to(around) or around == Path.home() / ".local":
+        return [around / part for part in _PARTS_OF_AN_INSTALLATION if (around / part).is_dir()]
+    return [around]
+
+
+def _is_of_the_system(path: Path) -> bool:
+    real = path.resolve()
+    return any(real.is_relative_to(folder) for folder in SYSTEM)
