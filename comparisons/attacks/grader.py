@@ -16,6 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from raytruth.comparisons.sandboxes.open_files import is_open_to_others
 from raytruth.comparisons.sandboxes.sandbox import SandboxError, is_root
 from raytruth.reference_tracer.storage.cache import cache_folder
 
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 _COMMON_PLACES = "/usr/bin:/usr/local/bin:/bin"
 # A moment for a connection that was made to be seen.
 _LISTENING_SECONDS = 0.05
-_OTHERS_MAY_ENTER, _OTHERS_MAY_READ = 0o001, 0o004
 
 
 @dataclass
@@ -122,14 +122,6 @@ def runnable_python() -> Path:
         if not is_root() or is_open_to_others(path):
             return path
     raise SandboxError(f"other users may not run {sys.executable}, and there is no other Python in {_COMMON_PLACES}")
-
-
-def is_open_to_others(path: Path) -> bool:
-    """Whether the permissions of a file or folder, and of the folders that it lies in, let everybody read it."""
-    real = path.resolve()
-    return bool(real.stat().st_mode & _OTHERS_MAY_READ) and all(
-        folder.stat().st_mode & _OTHERS_MAY_ENTER for folder in real.parents
-    )
 
 
 @contextmanager

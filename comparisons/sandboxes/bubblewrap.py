@@ -23,8 +23,13 @@ _IN_FOLDER = ("sh", "-c", 'cd "$0" && exec "$@"')
 _SHARED = ("/tmp", "/var/tmp", "/dev/shm")  # noqa: S108 - places inside the sandbox
 
 
-def wrapped(command: Sequence[str], folder: Path, scratch: Path, visible: Sequence[Path], user: int | None) -> list[str]:
-    """The command in a sandbox in which it can write to `folder` and `scratch` only, as this user if we are root."""
+def wrapped(
+    command: Sequence[str], folder: Path, scratch: Path, visible: Sequence[tuple[Path, Path]], user: int | None
+) -> list[str]:
+    """The command in a sandbox in which it can write to `folder` and `scratch` only, as this user if we are root.
+
+    `visible` are names with what is shown there.
+    """
     words = ["bwrap", *_NAMESPACES, "--die-with-parent", "--new-session", "--cap-drop", "ALL"]
     words += ["--unshare-user"] if user is None else _TO_DROP_THE_ID
     for path in SYSTEM:
@@ -36,9 +41,9 @@ def wrapped(command: Sequence[str], folder: Path, scratch: Path, visible: Sequen
     for place in _SHARED:
         words += ["--bind", str(scratch), place]
     words += ["--dir", str(folder.resolve().parent)]
-    for path in visible:
+    for path, shown in visible:
         for name in dict.fromkeys((path, path.resolve())):
-            words += ["--ro-bind", str(path.resolve()), str(name)]
+            words += ["--ro-bind", str(shown.resolve()), str(name)]
     place = str(folder.resolve())
     words += ["--bind", place, place, "--remount-ro", "/dev", "--remount-ro", "/"]
     if user is None:

@@ -34,8 +34,9 @@ class Sandbox:
     """A rung of the ladder, and what a program may see in it besides the system's own files and its own folder."""
 
     rung: Rung
-    visible: tuple[Path, ...] = ()
-    """Files and folders, absolute, that it may read and run but not write."""
+    visible: tuple[tuple[Path, Path], ...] = ()
+    """Files and folders, absolute, that it may read and run but not write: what each is called, and what is there, which
+    is the same or a copy."""
     processes: int = MOST_PROCESSES
     """How many it may have at once."""
 

@@ -50,7 +50,7 @@ def sandboxed_run(
     missing = missing_for(sandbox.rung)
     if missing is not None:
         raise SandboxError(f"there is no sandbox {sandbox.rung} here: {missing}")
-    visible = (*(path for path in installed(extra.get("PATH"))), *sandbox.visible)
+    visible = (*((path, path) for path in installed(extra.get("PATH"))), *sandbox.visible)
     with ExitStack() as stack:
         user = stack.enter_context(reserved_user()) if is_root() else None
         groups = stack.enter_context(control_groups(sandbox.processes, memory_bytes))
@@ -58,17 +58,28 @@ def sandboxed_run(
             stack.enter_context(_owned_by(user, folder))
         inside = sandbox.rung == "bubblewrap"
         yield SandboxedRun(
-            wrapped(command, folder, scratch, visible, user) if inside else list(command),
+            wrapped(command, folder, scratch, visible, user) if inside else _with_copies(command, sandbox),
             {**kept_environment(os.environ, scratch.resolve()), **extra},
             Confinement(
                 groups=tuple(map(str, groups)),
                 user=None if inside else user,
                 processes=sandbox.processes + (0 if is_root() else _threads_of(os.getuid())),
                 landlock=sandbox.rung == "landlock",
-                readable=tuple(map(str, (*SYSTEM, PROCESSORS, Path("/proc"), *visible))),
+                readable=tuple(map(str, (*SYSTEM, PROCESSORS, Path("/proc"), *(shown for _, shown in visible)))),
                 writable=tuple(map(str, (folder.resolve(), *_DEVICES))),
             ),
         )
+
+
+def _with_copies(command: Sequence[str], sandbox: Sandbox) -> list[str]:
+    """The words with the copies of files in place of the files, where nothing but a name leads to a copy."""
+    words = list(command)
+    for path, shown in sandbox.visible:
+        if path != shown:
+            words = [
+                str(shown / Path(word).relative_to(path)) if Path(word).is_relative_to(path) else word for word in words
+            ]
+    return words
 
 
 @contextmanager
