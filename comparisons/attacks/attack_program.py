@@ -96,7 +96,9 @@ def shared_folders(values: dict[str, Any]) -> str:
     for folder in ("/tmp", "/var/tmp", "/dev/shm", "/run/lock"):  # noqa: S108 - what is attacked
         try:
             if not Path(folder).samefile(own):
-                (Path(folder) / values["token"]).write_bytes(b"x")
+                mine = Path(folder) / values["token"]
+                mine.write_bytes(b"x")
+                mine.unlink()
                 reached.append(folder)
         except OSError:
             continue

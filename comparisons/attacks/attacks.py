@@ -90,8 +90,8 @@ ATTACKS: dict[str, Attack] = {
 _FUNCTIONS = {name: "reading" for name in ("truth", "rubric", "others", "home")}
 
 
-def attacked(name: str, rung: Rung, grader: Grader) -> AttackResult:
-    """What comes of one attack on a rung. Raises SandboxError where that cannot be set up."""
+def attacked(name: str, rung: Rung | None, grader: Grader) -> AttackResult:
+    """What comes of one attack on a rung, or in no sandbox. Raises SandboxError where that cannot be set up."""
     attack = ATTACKS[name]
     words = _FUNCTIONS.get(name, name)
     failure, last = in_sandbox(words, attack.values(grader), rung, grader, attack.seconds)
@@ -113,7 +113,9 @@ def behaves(rung: Rung, grader: Grader) -> str:
     return failure or ("" if last == "held" else last)
 
 
-def in_sandbox(words: str, values: dict[str, Any], rung: Rung, grader: Grader, seconds: float) -> tuple[str, str]:
+def in_sandbox(
+    words: str, values: dict[str, Any], rung: Rung | None, grader: Grader, seconds: float
+) -> tuple[str, str]:
     """Run a function of the attacking program in a new work folder: how it failed, and its last line."""
     remove(grader.work)
     grader.work.mkdir()
@@ -130,7 +132,7 @@ def in_sandbox(words: str, values: dict[str, Any], rung: Rung, grader: Grader, s
             memory_bytes=MEMORY_BYTES,
             output_bytes=OUTPUT_BYTES,
             file_bytes=FILE_BYTES,
-            sandbox=Sandbox(rung, (), PROCESSES),
+            sandbox=Sandbox(rung, processes=PROCESSES) if rung else None,
         )
     except RendererError as error:
         failure = str(error)

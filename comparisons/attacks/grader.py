@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import os
 import secrets
 import shutil
@@ -46,7 +45,7 @@ class Grader:
     server: tuple[socket.socket, socket.socket, socket.socket]
     """That listen: by TCP, by UDP, and at a local name."""
     address: int
-    """Where in the memory of the process there may be something to read."""
+    """Where in the memory of the process its token lies."""
 
     @property
     def process(self) -> int:
@@ -108,9 +107,8 @@ def attacked_grader() -> Iterator[Grader]:
         files["home"] = Path.home().resolve() / f".{token}"
         for path in list(files.values()):
             stack.enter_context(_with_secret(path, secret))
-        victim = stack.enter_context(_victim(token))
+        victim, address = stack.enter_context(_victim(token))
         server = stack.enter_context(_server(token))
-        address = ctypes.addressof(ctypes.c_char.in_dll(ctypes.pythonapi, "Py_Version"))
         yield Grader(folder / "work", runnable_python(), files, secret, token, victim, server, address)
 
 
@@ -133,13 +131,24 @@ def _with_secret(path: Path, secret: str) -> Iterator[None]:
         path.unlink(missing_ok=True)
 
 
+# It tells where in its memory the token lies, and waits.
+_VICTIM = """
+import ctypes, os, time
+token = ctypes.create_string_buffer(os.environ["RAYTRUTH_TOKEN"].encode())
+print(ctypes.addressof(token), flush=True)
+time.sleep(600)
+"""
+
+
 @contextmanager
-def _victim(token: str) -> Iterator[subprocess.Popen[bytes]]:
-    """A process that waits, with the token in its environment."""
-    sleeper = [sys.executable, "-I", "-S", "-c", "import time; time.sleep(600)"]
-    with subprocess.Popen(sleeper, env={**os.environ, "RAYTRUTH_TOKEN": token}) as victim:
+def _victim(token: str) -> Iterator[tuple[subprocess.Popen[bytes], int]]:
+    """A process that waits, with the token in its environment and in its memory, and the address there."""
+    words = [sys.executable, "-I", "-S", "-c", _VICTIM]
+    environment = {**os.environ, "RAYTRUTH_TOKEN": token}
+    with subprocess.Popen(words, env=environment, stdout=subprocess.PIPE) as victim:
         try:
-            yield victim
+            assert victim.stdout is not None  # it was asked for above
+            yield victim, int(victim.stdout.readline())
         finally:
             victim.kill()
 

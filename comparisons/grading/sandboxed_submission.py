@@ -32,13 +32,15 @@ def in_sandbox(
     files = counted_files(declared.command, program.folder, declared.environment, declared.files)
     elsewhere = installed(declared.environment.get("PATH"))
     own = list(own_files(path for path in files if not any(path.is_relative_to(folder) for folder in elsewhere)))
-    own += [path.resolve() for path in shown]
     if declared.uses("folder"):
         own.append(program.folder)
-    visible = without_hidden(_outermost(own), hidden)
-    with opened(visible) as names:
-        sandbox = Sandbox(rung, names)
-        _check(files[0], sandbox)
+    own = _outermost(own)
+    visible = without_hidden(own, hidden)
+    in_part = tuple(path for path in own if path.is_dir() and path not in visible)
+    others = without_hidden((path.resolve() for path in shown), hidden)
+    with opened(visible, in_part) as names:
+        sandbox = Sandbox(rung, (*names, *((path, path) for path in others)), in_part)
+        _check([files[0], *others], sandbox)
         yield replace(program, sandbox=sandbox)
 
 
@@ -48,10 +50,13 @@ def _outermost(paths: Iterable[Path]) -> list[Path]:
     return [path for path in given if not any(path != other and path.is_relative_to(other) for other in given)]
 
 
-def _check(program: Path, sandbox: Sandbox) -> None:
-    """Raise SandboxError where the user that a submission runs as may not run what its command begins with."""
-    is_own = any(program.is_relative_to(name) for name, _ in sandbox.visible)
-    if is_root() and sandbox.rung != "bubblewrap" and not is_own and not is_open_to_others(program):
-        raise SandboxError(
-            f"a submission never runs as root, and other users may not run {program.resolve()}; install it where all may"
-        )
+def _check(paths: Iterable[Path], sandbox: Sandbox) -> None:
+    """Raise SandboxError where the user that a submission runs as may not read what it needs, by its own name."""
+    if not is_root() or sandbox.rung == "bubblewrap":
+        return
+    copied = [name for name, shown in sandbox.visible if name != shown]
+    for path in paths:
+        if not is_open_to_others(path) and not any(path.is_relative_to(name) for name in copied):
+            raise SandboxError(
+                f"a submission never runs as root, and other users may not read {path.resolve()}; put it where all may"
+            )

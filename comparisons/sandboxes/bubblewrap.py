@@ -36,14 +36,14 @@ def wrapped(
         words += _shown_system(path)
     words += ["--proc", "/proc", "--dev", "/dev"]
     words += ["--ro-bind-try", str(PROCESSORS), str(PROCESSORS)]
-    # Made first: the folders around a private one would be made private to root, and no user could pass through them.
+    # What is made by --dir all may enter. Folders that bwrap makes around another may be private to root.
     words += ["--dir", "/var"]
     for place in _SHARED:
         words += ["--bind", str(scratch), place]
     words += ["--dir", str(folder.resolve().parent)]
     for path, shown in visible:
         for name in dict.fromkeys((path, path.resolve())):
-            words += ["--ro-bind", str(shown.resolve()), str(name)]
+            words += ["--dir", str(name.parent), "--ro-bind", str(shown.resolve()), str(name)]
     place = str(folder.resolve())
     words += ["--bind", place, place, "--remount-ro", "/dev", "--remount-ro", "/"]
     if user is None:

@@ -30,9 +30,10 @@ class Confinement:
     processes: int = 0
     """How many of this user there may be, threads counted."""
     landlock: bool = False
+    listable: tuple[str, ...] = ()
     readable: tuple[str, ...] = ()
     writable: tuple[str, ...] = ()
-    """Files and folders, with Landlock."""
+    """Files and folders, with Landlock; of what is listable only the names of what it holds can be read."""
 
 
 def prepared(confinement: Confinement) -> Callable[[], None]:
@@ -69,6 +70,8 @@ def _file_rules(confinement: Confinement) -> Ruleset:
 
     reading = AccessFS.EXECUTE | AccessFS.READ_FILE | AccessFS.READ_DIR
     ruleset = Ruleset(scoped=Scope.SIGNAL | Scope.ABSTRACT_UNIX_SOCKET)
+    for name in confinement.listable:
+        _allow(ruleset, name, AccessFS.READ_DIR)
     for name in confinement.readable:
         _allow(ruleset, name, reading)
     # All but to make devices and sockets; to move files between these folders.

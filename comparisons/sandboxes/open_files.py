@@ -30,11 +30,12 @@ def is_open_to_others(path: Path) -> bool:
 
 
 @contextmanager
-def opened(paths: Iterable[Path]) -> Iterator[tuple[tuple[Path, Path], ...]]:
+def opened(paths: Iterable[Path], folders: Iterable[Path] = ()) -> Iterator[tuple[tuple[Path, Path], ...]]:
     """Each path with what stands for it as long as this holds: itself, or a copy where we are root and it is closed.
 
-    The copies lie as the files do to each other, in a folder whose name others cannot list. Raises SandboxError for what
-    is too large to be copied.
+    The copies lie as the files do to each other, in a folder whose name others cannot list. Where there are copies, each
+    of `folders` is one of the paths, too: its copy holds nothing but copies. Raises SandboxError for what is too large to
+    be copied.
     """
     shown = list(dict.fromkeys(paths))
     if not is_root() or all(is_open_to_others(path) for path in shown):
@@ -43,7 +44,8 @@ def opened(paths: Iterable[Path]) -> Iterator[tuple[tuple[Path, Path], ...]]:
     with TemporaryDirectory(prefix="raytruth-") as name:
         Path(name).chmod(0o711)
         copies = Path(name).resolve() / token_hex(16)
-        yield tuple((path, _copied(path, copies)) for path in shown)
+        copied = [(path, _copied(path, copies)) for path in shown]
+        yield (*copied, *((folder, copies / folder.relative_to("/")) for folder in folders))
 
 
 def _copied(path: Path, copies: Path) -> Path:

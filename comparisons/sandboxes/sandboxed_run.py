@@ -65,6 +65,7 @@ def sandboxed_run(
                 user=None if inside else user,
                 processes=sandbox.processes + (0 if is_root() else _threads_of(os.getuid())),
                 landlock=sandbox.rung == "landlock",
+                listable=tuple(map(str, sandbox.listable)),
                 readable=tuple(map(str, (*SYSTEM, PROCESSORS, Path("/proc"), *(shown for _, shown in visible)))),
                 writable=tuple(map(str, (folder.resolve(), *_DEVICES))),
             ),

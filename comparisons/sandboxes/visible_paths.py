@@ -27,7 +27,8 @@ def installed(environment_path: str | None = None) -> tuple[Path, ...]:
     """The folders of installed programs outside the system's: of all on the PATH, of what links there lead to, and of
     the Python that runs us.
     """
-    folders = [Path(name) for name in (environment_path or os.environ.get("PATH", "")).split(os.pathsep) if name]
+    searched = os.environ.get("PATH", "") if environment_path is None else environment_path
+    folders = [Path(name) for name in searched.split(os.pathsep) if name]
     found = [Path(sys.prefix), Path(sys.base_prefix)]
     for folder in folders:
         if folder.is_absolute() and folder.is_dir() and not _is_of_the_system(folder):
@@ -71,12 +72,18 @@ def _parts(path: Path, concealed: list[Path]) -> list[Path]:
 
 
 def _installation(folder: Path) -> list[Path]:
-    """What belongs to the programs in a folder called bin: the folder around it, but not a home folder with all in it."""
-    around = folder.parent
+    """What belongs to the programs in a folder called bin: the folder around it, but not a home folder with all in it.
+
+    Of one that lies in the home folder, as ~/.cargo, only folders: files beside them are settings and passwords. An
+    environment of Python's has a file of its own there.
+    """
+    around, home = folder.parent, Path.home()
     if folder.name != "bin":
         return [folder]
-    if Path.home().is_relative_to(around) or around == Path.home() / ".local":
+    if home.is_relative_to(around) or around == home / ".local":
         return [around / part for part in _PARTS_OF_AN_INSTALLATION if (around / part).is_dir()]
+    if around.parent == home and not (around / "pyvenv.cfg").exists():
+        return [path for path in sorted(around.iterdir()) if path.is_dir()]
     return [around]
 
 
