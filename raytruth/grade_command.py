@@ -27,7 +27,7 @@ from raytruth.comparisons.processes.interruption import start_worker
 from raytruth.comparisons.records.grade_results import GRADE_FILE
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, expect_folder
-from raytruth.output import print_json, progress, say, tell
+from raytruth.output import print_json, progress, say
 from raytruth.programs import programs_of
 from raytruth.reference_tracer.storage.cache import cache_folder
 from raytruth.reference_tracer.storage.whole_files import write_whole
@@ -35,7 +35,6 @@ from raytruth.reports.grade_junit import grade_junit
 from raytruth.reports.grade_pages import STUDENT_PAGE, TEACHER_PAGE, grade_page
 from raytruth.reports.grade_text import grade_lines
 from raytruth.reports.gradescope import gradescope_results
-from raytruth.reports.sandbox_text import sandbox_sentence
 from raytruth.sandboxed_programs import sandboxed
 from raytruth.scenes.wording import quoted, suggestion
 
@@ -93,8 +92,8 @@ def grade(
     jobs
         How many scenes are graded side by side; one a processor by default.
     sandbox
-        What the program runs in (docs/sandboxes.md). auto is the first that works here of bubblewrap, landlock and user;
-        an ordinary user without any of them grades in none.
+        What the program runs in (docs/sandboxes.md): auto is the first that works here of bubblewrap, landlock,
+        user; and for an ordinary user, if none of them does, none.
     sandbox_read
         Also let the program read this file or folder, beside its own and the system's.
     init
@@ -119,19 +118,11 @@ def grade(
     if not topics:
         raise UsageError(f"--stage: nothing is due at the stage {quoted(str(stage))}.")
     hidden = [file for file in (path, cache_folder(), out, gradescope, junit) if file is not None]
-    with sandboxed(program, sandbox, hidden, sandbox_read) as (confined, held):
-        tell(sandbox_sentence(held))
-        with progress("Grading"):
-            graded = _graded(confined, opened, topics, Occasion(stage, attempt), jobs or os.cpu_count() or 1)
+    with sandboxed(program, sandbox, hidden, sandbox_read) as (confined, held), progress("Grading"):
+        graded = _graded(confined, opened, topics, Occasion(stage, attempt), jobs or os.cpu_count() or 1)
     graded = graded.model_copy(update={"sandbox": held})
     _write(graded, out, gradescope, junit)
-    if as_json:
-        print_json(graded.model_dump(mode="json"))
-    else:
-        say("\n".join(grade_lines(for_student(graded))))
-    if graded.status == "grader_error":
-        return GRADER_ERROR
-    return 0 if graded.score == graded.maximum else FAILED
+    return _told(graded, as_json=as_json)
 
 
 def _graded(
@@ -148,6 +139,17 @@ def _graded(
             return grade_submission(program, assignment, topics, occasion, pool)
         finally:
             pool.shutdown(cancel_futures=True)
+
+
+def _told(graded: Grade, *, as_json: bool) -> int:
+    """Print the grade; the exit status that it has."""
+    if as_json:
+        print_json(graded.model_dump(mode="json"))
+    else:
+        say("\n".join(grade_lines(for_student(graded))))
+    if graded.status == "grader_error":
+        return GRADER_ERROR
+    return 0 if graded.score == graded.maximum else FAILED
 
 
 def _write(graded: Grade, out: Path | None, gradescope: Path | None, junit: Path | None) -> None:

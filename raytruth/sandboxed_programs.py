@@ -9,6 +9,8 @@ from raytruth.comparisons.attacks.ladder import chosen
 from raytruth.comparisons.grading.sandboxed_submission import in_sandbox
 from raytruth.comparisons.sandboxes.sandbox import SandboxError
 from raytruth.errors import UsageError
+from raytruth.output import tell
+from raytruth.reports.sandbox_text import sandbox_sentence
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -23,9 +25,10 @@ if TYPE_CHECKING:
 def sandboxed(
     program: ProgramRenderer, choice: Choice, hidden: Iterable[Path], shown: Iterable[Path]
 ) -> Iterator[tuple[ProgramRenderer, RungResult]]:
-    """The program as it is to run, and what its sandbox holds. Raises UsageError where the choice does not work here."""
+    """The program as it is to run, and what its sandbox holds, which is told. Raises UsageError if it does not work."""
     try:
         result = chosen(choice)
+        tell(sandbox_sentence(result))
         if result.rung == "none":
             yield program, result
             return

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from raytruth.comparisons.attacks.attacks import ATTACKS
 from raytruth.comparisons.attacks.ladder import tried
 from raytruth.comparisons.sandboxes.sandbox import RUNGS
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time

@@ -13,7 +13,9 @@ def sandbox_sentence(result: RungResult) -> str:
     if result.rung == "none":
         return f"The program runs in no sandbox: {result.reason}."
     held = len(result.attacks) - len(result.not_enforced)
-    begin = f"The program runs in the sandbox {result.rung}, which held {held} of {len(result.attacks)} attacks tried here"
+    begin = (
+        f"The program runs in the sandbox {result.rung}, which held {held} of {len(result.attacks)} attacks tried here"
+    )
     if not result.not_enforced:
         return f"{begin}."
     return f"{begin}; not enforced: {', '.join(it.attack for it in result.not_enforced)}."

@@ -1,8 +1,8 @@
 """The program that attacks from inside a sandbox: one attack a run, and its last line says what came of it.
 
-Run as `python -I -S attack_program.py ATTACK VALUES`, where VALUES are JSON. It uses the standard library only. It prints
-`held`, or `not held: ` and a clause; or it is ended by the limit that it attacks. Each attack is bounded, so that it does
-no harm where nothing holds it.
+Run as `python -I -S attack_program.py ATTACK VALUES`, where VALUES are JSON. It uses the standard library only. It
+prints `held`, or `not held: ` and a clause; or it is ended by the limit that it attacks. Each attack is bounded, so
+that it does no harm where nothing holds it.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ def shared_folders(values: dict[str, Any]) -> str:
     """A file in each folder that is everybody's, unless that is the program's own, which is counted."""
     own = os.environ["TMPDIR"]
     reached = []
-    for folder in ("/tmp", "/var/tmp", "/dev/shm", "/run/lock"):  # noqa: S108 - what is attacked
+    for folder in ("/tmp", "/var/tmp", "/dev/shm", "/run/lock"):
         try:
             if not Path(folder).samefile(own):
                 mine = Path(folder) / values["token"]

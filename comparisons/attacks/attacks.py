@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -32,6 +31,8 @@ SECONDS = 20.0
 SPINNING_SECONDS = 1.0
 _SCENE = '{"scene": "to be read"}'
 _PROGRAM = Path(__file__).with_name("attack_program.py")
+_COPY = _PROGRAM.name
+"""In the work folder, since ours may lie where no other user may read it."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ ATTACKS: dict[str, Attack] = {
 """By the name of the function that makes the attack."""
 
 # Several attacks are one function with other values.
-_FUNCTIONS = {name: "reading" for name in ("truth", "rubric", "others", "home")}
+_FUNCTIONS = dict.fromkeys(("truth", "rubric", "others", "home"), "reading")
 
 
 def attacked(name: str, rung: Rung | None, grader: Grader) -> AttackResult:
@@ -120,7 +121,7 @@ def in_sandbox(
     remove(grader.work)
     grader.work.mkdir()
     (grader.work / "scene.json").write_text(_SCENE, encoding="utf-8")
-    program = grader.work / "attack.py"
+    program = grader.work / _COPY
     program.write_bytes(_PROGRAM.read_bytes())
     command = [str(grader.python), "-I", "-S", str(program.resolve()), words, json.dumps(values)]
     failure = ""
@@ -147,5 +148,5 @@ def _told_in_log(name: str, grader: Grader, failure: str) -> str:
     log = grader.work / LOG_FILE
     if log.is_symlink() or not log.is_file() or grader.secret in log.read_text(encoding="utf-8") + failure:
         return "had its log replaced by a file of the grader's"
-    left = sorted(set(os.listdir(grader.work)) - {"scene.json", "attack.py", LOG_FILE})
+    left = sorted({path.name for path in grader.work.iterdir()} - {"scene.json", _COPY, LOG_FILE})
     return f"left {left[0]} behind" if left else ""

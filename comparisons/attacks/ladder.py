@@ -78,7 +78,7 @@ def _machine() -> str:
     """What the attacks' results depend on: the system since it was started, our rights in it, and the software."""
     parts = [platform.release(), str(os.geteuid()), os.environ.get("PATH", "")]
     parts += [Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii")]
-    parts += [os.readlink(f"/proc/self/ns/{name}") for name in ("mnt", "user", "pid", "net", "cgroup")]
+    parts += [str(Path(f"/proc/self/ns/{name}").readlink()) for name in ("mnt", "user", "pid", "net", "cgroup")]
     status = Path("/proc/self/status").read_text(encoding="utf-8").splitlines()
     parts += [line for line in status if line.startswith(("CapEff", "NoNewPrivs", "Seccomp"))]
     parts += [_version(name) for name in ("raytruth", "landlockpy", "seccompy")]

@@ -14,8 +14,8 @@ MOST_HINTS = 3
 
 
 def for_student(grade: Grade) -> Grade:
-    """The same grade without names and sentences that say what the mistake is, without what is told later only, and without
-    what the grader's machine does not hold.
+    """The same grade without names and sentences that say what the mistake is, without what is told later only, and
+    without what the grader's machine does not hold.
     """
     level = LEVELS.index(grade.told)
     tells_topics, tells_scenes, tells_pixels, tells_diagnosis = (level >= step for step in range(1, 5))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.renderers.program.command import counted_files
@@ -14,6 +13,7 @@ from raytruth.comparisons.sandboxes.visible_paths import installed, own_files, w
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+    from pathlib import Path
 
     from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
     from raytruth.comparisons.sandboxes.sandbox import Rung

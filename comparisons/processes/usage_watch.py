@@ -16,8 +16,8 @@ _LOOK_SECONDS = 0.2
 _FILES_AT_MOST = 2
 # Of files and folders in its folder: a compiler's cache has hundreds; to count more would take us long.
 MOST_FILES = 10_000
-# Of folders in folders. A path has at most 4096 characters and a name 255 (<linux/limits.h>): at most 3584 for what is not
-# deeper than this, so that it can always be counted below a work folder whose own path has up to 512.
+# Of folders in folders. A path has at most 4096 characters and a name 255 (<linux/limits.h>): what is not deeper than
+# this takes 3584 of them, so that it can be counted below a work folder whose own path has up to 512.
 DEEPEST = 14
 _PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
 _BLOCK_BYTES = 512  # what st_blocks counts, stat(2)
@@ -62,7 +62,7 @@ class UsageWatch:
 
 
 def _disk_use(folder: Path) -> tuple[int, int, int]:
-    """The bytes that all below a folder takes, how many files there are, and how deep they lie; if too many, the first."""
+    """The bytes that all below a folder takes, how many files there are, and how deep; if too many, of some."""
     used = files = deepest = 0
     for depth, entry in entries_below(folder):
         with contextlib.suppress(OSError):  # it is gone

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from raytruth.comparisons.records.results import Record
-from raytruth.comparisons.records.sandbox_results import RungResult
+from raytruth.comparisons.records.sandbox_results import RungResult  # noqa: TC001 - pydantic reads annotations at run time
 
 GRADE_FILE = "grade.json"
 

@@ -1,7 +1,7 @@
 """The first rung: bubblewrap gives a program namespaces of its own, in which nothing else exists.
 
-bwrap(1) describes the options. An ordinary user needs user namespaces for it. Root does not, and must not use them: user 0
-outside would own what runs inside. So there the user id is dropped in between, by setpriv(1).
+bwrap(1) describes the options. An ordinary user needs user namespaces for it. Root does not, and must not use them:
+user 0 outside would own what runs inside. So there the user id is dropped in between, by setpriv(1).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _TO_DROP_THE_ID = ("--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID")
 _IN_FOLDER = ("sh", "-c", 'cd "$0" && exec "$@"')
 # Folders for temporary files and shared memory that everybody may write to. Here they are the program's own, where what
 # it writes is counted; in a file system in memory it would not be.
-_SHARED = ("/tmp", "/var/tmp", "/dev/shm")  # noqa: S108 - places inside the sandbox
+_SHARED = ("/tmp", "/var/tmp", "/dev/shm")
 
 
 def wrapped(

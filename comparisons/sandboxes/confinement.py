@@ -1,4 +1,4 @@
-"""What a process does to itself before it becomes a program of others: joins groups, drops its user id, locks itself in.
+"""How a process confines itself before it becomes a program of others: groups, user id, files, system calls.
 
 Run by isolation_guard.py between fork and exec, in a process without threads. None of it can be undone afterwards.
 """

@@ -24,18 +24,18 @@ _MOST_FILES, _MOST_BYTES = 10_000, 1 << 30
 def is_open_to_others(path: Path) -> bool:
     """Whether the permissions of a file or folder, and of the folders that it lies in, let everybody read it."""
     real = path.resolve()
-    return bool(real.stat().st_mode & _OTHERS_MAY_READ) and all(
-        folder.stat().st_mode & _OTHERS_MAY_ENTER for folder in (real.parents if real.is_file() else (real, *real.parents))
-    )
+    folders = real.parents if real.is_file() else (real, *real.parents)
+    may_enter = all(folder.stat().st_mode & _OTHERS_MAY_ENTER for folder in folders)
+    return may_enter and bool(real.stat().st_mode & _OTHERS_MAY_READ)
 
 
 @contextmanager
 def opened(paths: Iterable[Path], folders: Iterable[Path] = ()) -> Iterator[tuple[tuple[Path, Path], ...]]:
     """Each path with what stands for it as long as this holds: itself, or a copy where we are root and it is closed.
 
-    The copies lie as the files do to each other, in a folder whose name others cannot list. Where there are copies, each
-    of `folders` is one of the paths, too: its copy holds nothing but copies. Raises SandboxError for what is too large to
-    be copied.
+    The copies lie as the files do to each other, in a folder whose name others cannot list. Where there are copies,
+    each of `folders` is one of the paths, too: its copy holds nothing but copies. Raises SandboxError for what is too
+    large to be copied.
     """
     shown = list(dict.fromkeys(paths))
     if not is_root() or all(is_open_to_others(path) for path in shown):
@@ -61,14 +61,13 @@ def _copied(path: Path, copies: Path) -> Path:
 
 
 def _check_size(folder: Path) -> None:
-    files = used = 0
-    for _, entry in entries_below(folder):
-        files += 1
+    used = 0
+    for files, (_, entry) in enumerate(entries_below(folder), start=1):
         used += entry.stat(follow_symlinks=False).st_size
         if files > _MOST_FILES or used > _MOST_BYTES:
             raise SandboxError(
-                f"{folder} is closed to other users, and a submission never runs as root; it has more than {_MOST_FILES} "
-                f"files or {_MOST_BYTES >> 30} GiB, too much to be copied: let others read it (chmod -R o+rX)"
+                f"{folder} is closed to other users, and a submission never runs as root; it has more than "
+                f"{_MOST_FILES} files or {_MOST_BYTES >> 30} GiB, too much to copy: let others read it (chmod -R o+rX)"
             )
 
 

@@ -35,8 +35,8 @@ class Sandbox:
 
     rung: Rung
     visible: tuple[tuple[Path, Path], ...] = ()
-    """Files and folders, absolute, that it may read and run but not write: what each is called, and what is there, which
-    is the same or a copy."""
+    """Files and folders, absolute, that it may read and run but not write: what each is called, and what is there,
+    which is the same or a copy."""
     listable: tuple[Path, ...] = ()
     """Folders of which it may see parts only, and the names of the rest where the rung cannot conceal them."""
     processes: int = MOST_PROCESSES

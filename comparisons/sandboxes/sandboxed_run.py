@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 # Devices that are no way to anything: what is written vanishes, what is read is zeros or random.
 _DEVICES = tuple(Path(f"/dev/{name}") for name in ("null", "zero", "full", "random", "urandom"))
 # Where everybody may leave files; only their owner and root can remove them.
-_SHARED = tuple(Path(name) for name in ("/tmp", "/var/tmp", "/dev/shm"))  # noqa: S108 - looked through for what was left
+_SHARED = tuple(Path(name) for name in ("/tmp", "/var/tmp", "/dev/shm"))
 
 
 @dataclass(frozen=True)

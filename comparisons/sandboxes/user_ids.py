@@ -24,7 +24,7 @@ FIRST, LAST = 60706, 61183
 def reserved_user() -> Iterator[int]:
     """A user id that nobody else has as long as this holds. Raises SandboxError if all are taken.
 
-    A name of a socket stands for each id. The kernel gives it to one process at a time, and takes it back when that ends.
+    A name of a socket stands for each id. The kernel gives it to one process at a time, and takes it back at its end.
     """
     for user in range(FIRST, LAST + 1):
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as claim:

@@ -14,7 +14,7 @@ SYSTEM = tuple(
     Path(name)
     for name in ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/etc", "/opt", "/nix/store")
 )
-"""Programs, libraries and their settings. Where people keep their own things (/home, /root, /srv, /var, …) is not here."""
+"""Programs, libraries and their settings. Where people keep what is their own (/home, /root, /srv, …) is not here."""
 
 PROCESSORS = Path("/sys/devices/system/cpu")
 """How many processors there are, which runtimes ask."""
@@ -43,7 +43,7 @@ def installed(environment_path: str | None = None) -> tuple[Path, ...]:
 
 
 def own_files(named: Iterable[Path]) -> tuple[Path, ...]:
-    """The folders of the files that a command names, with all below; of one in a home folder or above the file alone."""
+    """The folders of the files that a command names, with all below; of one in a home folder or above it the file."""
     found = []
     for path in named:
         folder = path.parent

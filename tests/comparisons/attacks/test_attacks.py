@@ -1,4 +1,4 @@
-"""Each attack on each rung that this machine has, and in no sandbox, where it must succeed: else it would prove nothing."""
+"""Each attack on each rung that this machine has, and in no sandbox, where it must succeed, or it proves nothing."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.clause("SBX-1")
 
 # What another user id does not hold: it has the rights of everybody on this machine.
 BEYOND_A_USER_ID = {"shared_folders", "network", "truth", "rubric", "others"}
-# What process_isolation holds without any sandbox.
+# What limits on a process hold without any sandbox.
 HELD_ANYHOW = {"memory_of_one", "one_file", "processor", "output", "escape", "links"}
 
 

@@ -83,7 +83,9 @@ def test_what_was_tried_is_kept_until_the_machine_changes(monkeypatch: pytest.Mo
     assert calls == ["user", "user", "user"]
 
 
-def test_a_rung_whose_program_is_missing_says_how_to_install_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_a_rung_whose_program_is_missing_says_how_to_install_it(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     result = tried("bubblewrap")
     assert not result.works
