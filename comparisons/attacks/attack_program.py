@@ -7,11 +7,13 @@ that it does no harm where nothing holds it.
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import json
 import mmap
 import os
 import resource
+import select
 import signal
 import socket
 import sys
@@ -20,8 +22,9 @@ from pathlib import Path
 from typing import Any
 
 MEBIBYTE = 1 << 20
-# As long as a limit that is looked after now and then is given: some of its looks.
-PATIENCE_SECONDS = 1.0
+# As long as a limit that is looked after now and then is given: some of its looks, also on a busy machine.
+PATIENCE_SECONDS = 3.0
+POLL_SECONDS = 0.02
 
 
 def fork_bomb(values: dict[str, Any]) -> str:
@@ -54,19 +57,36 @@ def memory_of_one(values: dict[str, Any]) -> str:
 
 def memory_of_all(values: dict[str, Any]) -> str:
     """Three children with half of the memory each, which is touched."""
-    children = [os.fork() for _ in range(3) if os.getpid() == values.setdefault("parent", os.getpid())]
-    if os.getpid() != values["parent"]:
-        memory = mmap.mmap(-1, values["memory"] // 2)
-        for place in range(0, len(memory), mmap.PAGESIZE):
-            memory[place] = 1
-        time.sleep(10 * PATIENCE_SECONDS)
-        os._exit(0)
-    time.sleep(PATIENCE_SECONDS)
-    alive = [child for child in children if os.waitpid(child, os.WNOHANG)[0] == 0]
-    for child in alive:
+    filled, fill = os.pipe()
+    children = []
+    for _ in range(3):
+        child = os.fork()
+        if child == 0:
+            memory = mmap.mmap(-1, values["memory"] // 2)
+            for place in range(0, len(memory), mmap.PAGESIZE):
+                memory[place] = 1
+            os.write(fill, b"x")
+            time.sleep(10 * PATIENCE_SECONDS)
+            os._exit(0)
+        children.append(child)
+    os.close(fill)
+    full = 0
+    # One that is ended leaves fewer than all full, and then none that could write to the pipe.
+    while full < len(children) and not _one_has_ended(children):
+        if select.select([filled], [], [], POLL_SECONDS)[0]:
+            full += len(os.read(filled, len(children)))
+    deadline = time.monotonic() + PATIENCE_SECONDS
+    while not (ended := _one_has_ended(children)) and time.monotonic() < deadline:
+        time.sleep(POLL_SECONDS)
+    for child in children:
         os.kill(child, signal.SIGKILL)
-        os.waitpid(child, 0)
-    return f"had {3 * values['memory'] // 2 // MEBIBYTE} MiB in three processes" if len(alive) == len(children) else ""
+    return "" if ended else f"had {3 * values['memory'] // 2 // MEBIBYTE} MiB in three processes"
+
+
+def _one_has_ended(children: list[int]) -> bool:
+    """Whether one of them is gone; it is not taken leave of, so that its number stays its own."""
+    states = [os.waitid(os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT) for child in children]
+    return any(state is not None for state in states)
 
 
 def one_file(values: dict[str, Any]) -> str:
@@ -182,9 +202,9 @@ def looking_into_the_grader(values: dict[str, Any]) -> str:
 def rewriting(values: dict[str, Any]) -> str:
     """A grade that is there already: write to it, remove it, put another in its place."""
     grade = Path(values["path"])
-    for attempt in (lambda: grade.write_text("100 of 100"), lambda: (grade.parent / "grade.new").write_text("100")):
+    for path in (grade, grade.with_suffix(".new")):
         try:
-            attempt()
+            path.write_text("100 of 100", encoding="utf-8")
             return "wrote to the folder of results"
         except OSError:
             continue
@@ -213,11 +233,9 @@ def links(values: dict[str, Any]) -> str:
 
 def becoming_root(_: dict[str, Any]) -> str:
     """To be user 0, to become it, and to read what only user 0 may, whatever it is called here."""
-    for attempt in (lambda: os.setuid(0), lambda: os.seteuid(0), lambda: os.setgroups([0])):
-        try:
-            attempt()
-        except OSError:
-            continue
+    for become in (os.setuid, os.seteuid):
+        with contextlib.suppress(OSError):
+            become(0)
     if 0 in os.getresuid():
         return "runs as root"
     try:

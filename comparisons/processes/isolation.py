@@ -19,11 +19,11 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
-from raytruth.comparisons.processes.process_count import LOOK_SECONDS, MOST_PROCESSES, ProcessCount
+from raytruth.comparisons.processes.process_count import LOOK_SECONDS, ProcessCount
 from raytruth.comparisons.processes.removal import remove
 from raytruth.comparisons.processes.usage_watch import UsageWatch
 from raytruth.comparisons.records.renderings import RendererError
-from raytruth.comparisons.sandboxes.sandbox import SandboxError
+from raytruth.comparisons.sandboxes.sandbox import MOST_PROCESSES, SandboxError
 from raytruth.comparisons.sandboxes.sandboxed_run import SandboxedRun, sandboxed_run
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ def run_isolated(
             failure = _run_guarded(run, folder, log, limits, sandbox)
     finally:
         remove(scratch)
-        _write_log(folder / LOG_FILE, log)
+        _write_log(folder / LOG_FILE, bytes(log))
     if failure:
         for path in set(folder.iterdir()) - before - {folder / LOG_FILE}:
             remove(path)
@@ -151,7 +151,8 @@ def _run_guarded(
                 _end(guard)
         told = status.read().decode()
         if told.startswith(_UNCONFINED):
-            raise SandboxError(f"the sandbox could not be set up ({told.removeprefix(_UNCONFINED)})")
+            reason = bytes(log).decode(errors="replace").strip() or told.removeprefix(_UNCONFINED)
+            raise SandboxError(f"the sandbox could not be set up: {reason}")
         return limit_hit or _describe_status(told, by_shell=sandbox is not None and sandbox.rung == "bubblewrap")
 
 

@@ -67,8 +67,12 @@ def _set_up(job: dict[str, Any]) -> Callable[[], None]:
 
     def set_up() -> None:
         if confine is not None:
-            confine()
-            _set(PR_SET_NO_NEW_PRIVS, 1)
+            try:
+                confine()
+                _set(PR_SET_NO_NEW_PRIVS, 1)
+            except OSError as error:
+                print(error.strerror, file=sys.stderr, flush=True)
+                raise  # subprocess tells of any error in the new process, but not which
         for limit, most in limits.items():
             hardest = resource.getrlimit(limit)[1]
             least = most if hardest == resource.RLIM_INFINITY else min(most, hardest)
