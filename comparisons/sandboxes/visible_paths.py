@@ -31,14 +31,10 @@ def installed(environment_path: str | None = None) -> tuple[Path, ...]:
     folders = [Path(name) for name in searched.split(os.pathsep) if name]
     found = [Path(sys.prefix), Path(sys.base_prefix)]
     for folder in folders:
-        if folder.is_absolute() and folder.is_dir() and not _is_of_the_system(folder):
-            found += _installation(folder)
-            found += [
-                part
-                for link in folder.iterdir()
-                if link.is_symlink() and link.resolve().is_file()
-                for part in _installation(link.resolve().parent)
-            ]
+        if folder.is_absolute() and _can_be_listed(folder) and not _is_of_the_system(folder):
+            targets = [link.resolve() for link in folder.iterdir() if link.is_symlink() and os.access(link, os.X_OK)]
+            for place in (folder, *(target.parent for target in targets)):
+                found += _installation(place)
     return tuple(dict.fromkeys(path for path in found if not _is_of_the_system(path)))
 
 
@@ -68,7 +64,8 @@ def _parts(path: Path, concealed: list[Path]) -> list[Path]:
         return []
     if not any(secret.is_relative_to(real) for secret in concealed):
         return [path]
-    return [part for entry in sorted(path.iterdir()) if entry.exists() for part in _parts(entry, concealed)]
+    entries = sorted(path.iterdir()) if _can_be_listed(path) else []
+    return [part for entry in entries if os.access(entry, os.R_OK) for part in _parts(entry, concealed)]
 
 
 def _installation(folder: Path) -> list[Path]:
@@ -81,10 +78,15 @@ def _installation(folder: Path) -> list[Path]:
     if folder.name != "bin":
         return [folder]
     if home.is_relative_to(around) or around == home / ".local":
-        return [around / part for part in _PARTS_OF_AN_INSTALLATION if (around / part).is_dir()]
+        return [around / part for part in _PARTS_OF_AN_INSTALLATION if _can_be_listed(around / part)]
     if around.parent == home and not (around / "pyvenv.cfg").exists():
-        return [path for path in sorted(around.iterdir()) if path.is_dir()]
+        return [path for path in sorted(around.iterdir()) if _can_be_listed(path)]
     return [around]
+
+
+def _can_be_listed(path: Path) -> bool:
+    """Whether it is a folder into which we may look; of one in a closed folder that cannot be told, so that it is not."""
+    return os.access(path, os.R_OK | os.X_OK) and path.is_dir()
 
 
 def _is_of_the_system(path: Path) -> bool:

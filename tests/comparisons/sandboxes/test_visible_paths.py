@@ -55,13 +55,24 @@ def test_a_link_does_not_show_what_is_hidden(home: Path) -> None:
     assert rubric not in [path.resolve() for path in without_hidden([home / "whole"], [rubric])]
 
 
+def test_folders_of_the_path_that_we_may_not_look_into_are_passed_over(home: Path) -> None:
+    """Root may look into all; what matters to others is that there is no error."""
+    file(home / "closed" / "tools" / "bin" / "tool")
+    (home / "closed").chmod(0)
+    try:
+        found = installed(str(home / "closed" / "tools" / "bin"))
+    finally:
+        (home / "closed").chmod(0o700)
+    assert set(found) - set(installed("")) <= {home / "closed" / "tools"}
+
+
 def test_programs_on_the_path_are_seen_with_what_belongs_to_them(home: Path, tmp_path: Path) -> None:
     file(tmp_path / "tools" / "bin" / "tool")
     file(home / ".cargo" / "bin" / "rustc")
     file(home / ".cargo" / "credentials.toml")
     file(home / ".local" / "bin" / "mine")
     file(home / ".local" / "share" / "mail")
-    file(home / "versions" / "3" / "bin" / "python")
+    file(home / "versions" / "3" / "bin" / "python").chmod(0o755)
     (home / ".local" / "bin" / "python").symlink_to(home / "versions" / "3" / "bin" / "python")
     folders = [tmp_path / "tools" / "bin", home / ".cargo" / "bin", home / ".local" / "bin", Path("/usr/bin")]
     found = set(installed(":".join(map(str, [*folders, "relative", home / "missing"]))))
