@@ -94,6 +94,8 @@ _FUNCTIONS = dict.fromkeys(("truth", "rubric", "others", "home"), "reading")
 def attacked(name: str, rung: Rung | None, grader: Grader) -> AttackResult:
     """What comes of one attack on a rung, or in no sandbox. Raises SandboxError where that cannot be set up."""
     attack = ATTACKS[name]
+    if _FUNCTIONS.get(name) == "reading" and name not in grader.files:
+        return AttackResult(attack=attack.title, result="not tried", detail="there is no folder to put a file into")
     words = _FUNCTIONS.get(name, name)
     failure, last = in_sandbox(words, attack.values(grader), rung, grader, attack.seconds)
     reached = attack.reached(grader) or _told_in_log(name, grader, failure)

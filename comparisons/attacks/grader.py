@@ -37,7 +37,7 @@ class Grader:
     python: Path
     """The interpreter that the attacks run in."""
     files: dict[str, Path]
-    """Files of the grader's by what they stand for, each with the secret in it."""
+    """Files of the grader's by what they stand for, each with the secret in it; without one that cannot be written."""
     secret: str
     token: str
     """A name that nothing else on this machine has."""
@@ -105,8 +105,11 @@ def attacked_grader() -> Iterator[Grader]:
         files["private"].parent.chmod(0o700)
         files["truth"] = cache_folder().resolve() / f"{token}.txt"
         files["home"] = Path.home().resolve() / f".{token}"
-        for path in list(files.values()):
-            stack.enter_context(_with_secret(path, secret))
+        for word, path in list(files.items()):
+            if os.access(path.parent, os.W_OK):
+                stack.enter_context(_with_secret(path, secret))
+            else:  # as a home folder that is not there
+                del files[word]
         victim, address = stack.enter_context(_victim(token))
         server = stack.enter_context(_server(token))
         yield Grader(folder / "work", runnable_python(), files, secret, token, victim, server, address)

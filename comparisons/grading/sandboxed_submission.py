@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -30,7 +31,7 @@ def in_sandbox(
     """
     declared = program.declaration
     files = counted_files(declared.command, program.folder, declared.environment, declared.files)
-    elsewhere = installed(declared.environment.get("PATH"))
+    elsewhere = installed(declared.environment.get("PATH", os.environ.get("PATH", "")))
     own = list(own_files(path for path in files if not any(path.is_relative_to(folder) for folder in elsewhere)))
     if declared.uses("folder"):
         own.append(program.folder)

@@ -15,7 +15,7 @@ import subprocess
 import sys
 import time
 from contextlib import nullcontext
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
@@ -125,7 +125,7 @@ def _run_guarded(
     job = {
         "memory": limits.memory_bytes,
         "file": limits.file_bytes,
-        "confinement": run.confinement and asdict(run.confinement),
+        "confinement": run.confinement and run.confinement._asdict(),
         "path": [place for place in sys.path if place],
     }
     with os.fdopen(reader, "rb") as status:

@@ -8,9 +8,8 @@ from __future__ import annotations
 import errno
 import os
 import resource
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,9 +18,8 @@ if TYPE_CHECKING:
     from seccompy import Filter
 
 
-@dataclass(frozen=True)
-class Confinement:
-    """In words and numbers that JSON has, since another process applies it."""
+class Confinement(NamedTuple):
+    """In words and numbers that JSON has, since another process applies it, which starts sooner without dataclasses."""
 
     groups: tuple[str, ...] = ()
     """Files of control groups, each joined by writing 0 to it."""

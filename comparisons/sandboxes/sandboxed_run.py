@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 # Devices that are no way to anything: what is written vanishes, what is read is zeros or random.
 _DEVICES = tuple(Path(f"/dev/{name}") for name in ("null", "zero", "full", "random", "urandom"))
 # Where everybody may leave files; only their owner and root can remove them.
-_SHARED = tuple(Path(name) for name in ("/tmp", "/var/tmp", "/dev/shm"))
+_SHARED = tuple(Path(name) for name in ("/tmp", "/var/tmp", "/dev/shm", "/run/lock"))
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def sandboxed_run(
     missing = missing_for(sandbox.rung)
     if missing is not None:
         raise SandboxError(f"there is no sandbox {sandbox.rung} here: {missing}")
-    visible = (*((path, path) for path in installed(extra.get("PATH"))), *sandbox.visible)
+    visible = (*((path, path) for path in installed(extra.get("PATH", os.environ.get("PATH", "")))), *sandbox.visible)
     with ExitStack() as stack:
         user = stack.enter_context(reserved_user()) if is_root() else None
         groups = stack.enter_context(control_groups(sandbox.processes, memory_bytes))

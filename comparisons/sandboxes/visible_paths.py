@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,12 +24,12 @@ PROCESSORS = Path("/sys/devices/system/cpu")
 _PARTS_OF_AN_INSTALLATION = ("bin", "lib", "lib64")
 
 
-def installed(environment_path: str | None = None) -> tuple[Path, ...]:
-    """The folders of installed programs outside the system's: of all on the PATH, of what links there lead to, and of
+@cache
+def installed(search_path: str) -> tuple[Path, ...]:
+    """The folders of installed programs outside the system's: of all on a PATH, of what links there lead to, and of
     the Python that runs us.
     """
-    searched = os.environ.get("PATH", "") if environment_path is None else environment_path
-    folders = [Path(name) for name in searched.split(os.pathsep) if name]
+    folders = [Path(name) for name in search_path.split(os.pathsep) if name]
     found = [Path(sys.prefix), Path(sys.base_prefix)]
     for folder in folders:
         if folder.is_absolute() and _can_be_listed(folder) and not _is_of_the_system(folder):
@@ -85,7 +86,7 @@ def _installation(folder: Path) -> list[Path]:
 
 
 def _can_be_listed(path: Path) -> bool:
-    """Whether it is a folder into which we may look; of one in a closed folder that cannot be told, so that it is not."""
+    """Whether it is a folder into which we may look; in a closed folder there is none."""
     return os.access(path, os.R_OK | os.X_OK) and path.is_dir()
 
 

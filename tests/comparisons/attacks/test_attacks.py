@@ -38,7 +38,9 @@ def test_an_attack_is_held_or_plainly_reported_as_not_enforced(name: str, rung: 
     if why_not(rung):
         return  # which is told, as is tested below
     result = attacked(name, rung, grader)
-    if rung == "user" and name in BEYOND_A_USER_ID and result.result != "held":
+    if name == "home" and "home" not in grader.files:
+        assert result.result == "not tried"
+    elif rung == "user" and name in BEYOND_A_USER_ID and result.result != "held":
         assert result.result == "not enforced"
         assert result.detail
     else:

@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import json
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from tempfile import gettempdir
 from typing import TYPE_CHECKING
 
 import pytest
 
 from raytruth.comparisons.attacks.grader import runnable_python
 from raytruth.comparisons.grading import sandboxed_submission
+from raytruth.comparisons.grading.grade import Occasion, grade_submission
 from raytruth.comparisons.grading.sandboxed_submission import in_sandbox
 from raytruth.comparisons.grading.submission import submitted
+from raytruth.comparisons.processes.isolation import run_isolated
+from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
 from raytruth.comparisons.renderers.program.declaration_file import checked_declaration
 from raytruth.comparisons.sandboxes import sandboxed_run
 from raytruth.comparisons.sandboxes.sandbox import RUNGS, Sandbox, SandboxError, is_root
 from tests.comparisons.attacks.rungs import why_not
+from tests.comparisons.grading.small_scenes import ASSIGNMENT, small_scene
 from tests.comparisons.renderers.program.scripts import grey_scene
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from raytruth.comparisons.sandboxes.sandbox import Rung
 
 pytestmark = pytest.mark.clause("SBX-3")
@@ -122,6 +127,28 @@ def test_a_sandbox_that_fails_is_the_graders_error_and_no_problem_of_the_submiss
         pytest.raises(SandboxError, match="there is no sandbox bubblewrap here: it was removed meanwhile"),
     ):
         submitted(confined, grey_scene())
+
+
+@pytest.mark.clause("SBX-6", "GRD-5")
+def test_a_grade_without_a_sandbox_is_no_grade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = reader(tmp_path)
+    monkeypatch.setattr(sandboxed_run, "missing_for", lambda _: "it was removed meanwhile")
+    with in_sandbox(program, "bubblewrap", []) as confined, ThreadPoolExecutor(1) as pool:
+        graded = grade_submission(confined, ASSIGNMENT, {"all": [small_scene()]}, Occasion(), pool)
+    assert graded.status == "grader_error"
+    assert "it was removed meanwhile" in graded.scenes[0].reason
+
+
+@pytest.mark.clause("SBX-2")
+def test_what_another_user_leaves_in_a_folder_of_everybody_is_removed(tmp_path: Path) -> None:
+    if why_not("user"):
+        return
+    left = Path(gettempdir()) / tmp_path.name
+    (tmp_path / "work").mkdir()
+    command = ["sh", "-c", f"mkdir -p {left}/deep && touch {left}/deep/file && exit 3"]
+    with pytest.raises(RendererError, match="exit status 3"):
+        run_isolated(command, tmp_path / "work", seconds=20, memory_bytes=1 << 28, sandbox=Sandbox("user"))
+    assert not left.exists()
 
 
 @pytest.mark.clause("SBX-6")
