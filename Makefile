@@ -39,9 +39,9 @@ FOR_BLENDER = libgl1 libsm6 libxfixes3 libxi6 libxkbcommon0 libxrender1
 
 # The stamps: an environment is made again only when what it is made from has changed.
 .venv/run.stamp: pyproject.toml constraints.txt tools/make_environment.sh
-	@bash tools/make_environment.sh '.[embree,vtk]' libllvm19 povray libegl1 libgl1-mesa-dri $(FOR_BLENDER)
+	@bash tools/make_environment.sh '.[embree,sandbox,vtk]' bubblewrap libllvm19 povray libegl1 libgl1-mesa-dri $(FOR_BLENDER)
 	@touch $@
 
 .venv/test.stamp: pyproject.toml constraints.txt tools/make_environment.sh
-	@bash tools/make_environment.sh '.[test]' libllvm19 povray libegl1 libgl1-mesa-dri $(FOR_BLENDER) chromium
+	@bash tools/make_environment.sh '.[test]' bubblewrap libllvm19 povray libegl1 libgl1-mesa-dri $(FOR_BLENDER) chromium
 	@touch $@ .venv/run.stamp

@@ -48,6 +48,11 @@ COMMANDS = {
         "Examples: `raytruth grade -- ./tracer {scene} {output}.pfm`, "
         "`raytruth grade --assignment shadows --renderer-file tracer.toml --out grade`",
     ),
+    "sandboxes": (
+        "raytruth.sandboxes_command:sandboxes",
+        "Try attacks on each sandbox that submissions can run in here, and tell what held.",
+        "Takes some seconds. Exit status 1 if none can be used. Example: `raytruth sandboxes --json`",
+    ),
     "scenes": ("raytruth.scenes_commands:app", "List, show, validate and export scenes.", ""),
     "renderers": (
         "raytruth.renderers_command:renderers",

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from raytruth.comparisons.attacks.ladder import Choice  # noqa: TC001 - as Path
 from raytruth.comparisons.grading.assignment_file import (
     READY_FOLDER,
     STARTING,
@@ -34,6 +35,7 @@ from raytruth.reports.grade_junit import grade_junit
 from raytruth.reports.grade_pages import STUDENT_PAGE, TEACHER_PAGE, grade_page
 from raytruth.reports.grade_text import grade_lines
 from raytruth.reports.gradescope import gradescope_results
+from raytruth.sandboxed_programs import sandboxed
 from raytruth.scenes.wording import quoted, suggestion
 
 if TYPE_CHECKING:
@@ -59,6 +61,8 @@ def grade(
     gradescope: Path | None = None,
     junit: Path | None = None,
     jobs: int | None = None,
+    sandbox: Choice = "auto",
+    sandbox_read: Annotated[tuple[Path, ...], Parameter(negative="")] = (),
     init: Annotated[Path | None, Parameter(show_default=False)] = None,
     schema: Annotated[bool, Parameter(negative="")] = False,
     as_json: AsJson = False,
@@ -87,6 +91,11 @@ def grade(
         Write JUnit XML to this file.
     jobs
         How many scenes are graded side by side; one a processor by default.
+    sandbox
+        What the program runs in (docs/sandboxes.md): auto is the first that works here of bubblewrap, landlock,
+        user; and for an ordinary user, if none of them does, none.
+    sandbox_read
+        Also let the program read this file or folder, beside its own and the system's.
     init
         Write an assignment with each key explained to this file, and nothing else.
     schema
@@ -108,16 +117,12 @@ def grade(
     topics = scenes_of(opened, path.parent, seed, due)
     if not topics:
         raise UsageError(f"--stage: nothing is due at the stage {quoted(str(stage))}.")
-    with progress("Grading"):
-        graded = _graded(program, opened, topics, Occasion(stage, attempt), jobs or os.cpu_count() or 1)
+    hidden = [file for file in (path, cache_folder(), out, gradescope, junit) if file is not None]
+    with sandboxed(program, sandbox, hidden, sandbox_read) as (confined, held), progress("Grading"):
+        graded = _graded(confined, opened, topics, Occasion(stage, attempt), jobs or os.cpu_count() or 1)
+    graded = graded.model_copy(update={"sandbox": held})
     _write(graded, out, gradescope, junit)
-    if as_json:
-        print_json(graded.model_dump(mode="json"))
-    else:
-        say("\n".join(grade_lines(for_student(graded))))
-    if graded.status == "grader_error":
-        return GRADER_ERROR
-    return 0 if graded.score == graded.maximum else FAILED
+    return _told(graded, as_json=as_json)
 
 
 def _graded(
@@ -134,6 +139,17 @@ def _graded(
             return grade_submission(program, assignment, topics, occasion, pool)
         finally:
             pool.shutdown(cancel_futures=True)
+
+
+def _told(graded: Grade, *, as_json: bool) -> int:
+    """Print the grade; the exit status that it has."""
+    if as_json:
+        print_json(graded.model_dump(mode="json"))
+    else:
+        say("\n".join(grade_lines(for_student(graded))))
+    if graded.status == "grader_error":
+        return GRADER_ERROR
+    return 0 if graded.score == graded.maximum else FAILED
 
 
 def _write(graded: Grade, out: Path | None, gradescope: Path | None, junit: Path | None) -> None:

@@ -8,6 +8,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from raytruth.reports import wording
 from raytruth.reports.grade_text import diagnosis_sentence, headline, points, scene_sentence
+from raytruth.reports.sandbox_text import sandbox_sentence
 
 if TYPE_CHECKING:
     from raytruth.comparisons.records.grade_results import Grade
@@ -34,5 +35,6 @@ def grade_page(grade: Grade, *, for_teacher: bool) -> str:
         grade=grade,
         headline=headline(grade),
         for_teacher=for_teacher,
+        sandbox=sandbox_sentence(grade.sandbox) if grade.sandbox else "",
         style=loader.get_source(environment, "report.css")[0],
     )

@@ -14,7 +14,9 @@ MOST_HINTS = 3
 
 
 def for_student(grade: Grade) -> Grade:
-    """The same grade without names and sentences that say what the mistake is, and without what is told later only."""
+    """The same grade without names and sentences that say what the mistake is, without what is told later only, and
+    without what the grader's machine does not hold.
+    """
     level = LEVELS.index(grade.told)
     tells_topics, tells_scenes, tells_pixels, tells_diagnosis = (level >= step for step in range(1, 5))
     shown = [it for it in grade.diagnosis if it.is_whole][:1] or list(grade.diagnosis[:MOST_HINTS])
@@ -35,5 +37,6 @@ def for_student(grade: Grade) -> Grade:
             "mistakes": tuple(mistakes) if tells_topics else (),
             "diagnosis": tuple(hints) if tells_diagnosis else (),
             "unexplained": grade.unexplained if tells_diagnosis else "",
+            "sandbox": None,
         }
     )

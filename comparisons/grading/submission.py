@@ -59,6 +59,7 @@ def submitted(program: ProgramRenderer, scene: Scene) -> Submitted:
     if refused is not None:
         return Submitted(None, 0.0, refused)
     with TemporaryDirectory(prefix="raytruth-") as name:
+        Path(name).chmod(0o711)  # in a sandbox it may run as another user, who has a folder in this one
         try:
             rays = Rays(*primary_rays(scene))
             rendering = program.render(scene, "whitted", scene.max_depth, rays, Path(name))

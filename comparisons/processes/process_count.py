@@ -7,8 +7,7 @@ import os
 import signal
 from pathlib import Path
 
-MOST_PROCESSES = 512
-"""Of a program and all that it starts, at once: one for each processor of a large machine, with shells around them."""
+from raytruth.comparisons.sandboxes.sandbox import MOST_PROCESSES
 
 # Between two looks. In this time two processors start some hundreds of processes.
 LOOK_SECONDS = 0.05
@@ -33,7 +32,7 @@ class ProcessCount:
             return False
         with contextlib.suppress(ProcessLookupError):  # the guard and all others have ended
             os.killpg(self._guard, signal.SIGSTOP)
-            descendants = _descendants_of(self._guard)
+            descendants = descendants_of(self._guard)
             if len(descendants) > MOST_PROCESSES:
                 for process in descendants:
                     with contextlib.suppress(ProcessLookupError):  # it is not of the group, and has ended by itself
@@ -48,7 +47,7 @@ def _threads_of_the_machine() -> int:
     return int(Path("/proc/loadavg").read_text(encoding="ascii").split()[3].partition("/")[2])
 
 
-def _descendants_of(process: int) -> list[int]:
+def descendants_of(process: int) -> list[int]:
     """The numbers of all processes that come from this one, which are children of any of its threads."""
     found = [process]
     for known in found:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from raytruth.comparisons.records.results import Record
+from raytruth.comparisons.records.sandbox_results import RungResult  # noqa: TC001 - pydantic reads annotations at run time
 
 GRADE_FILE = "grade.json"
 
@@ -91,3 +92,5 @@ class Grade(Record):
     unexplained: str = ""
     """Where no known mistake explains all: in which scene, region and features it shows first."""
     seconds: float
+    sandbox: RungResult | None = None
+    """What the submission ran in, and which attacks that holds here; not told to students."""

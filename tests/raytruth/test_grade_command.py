@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from raytruth.comparisons.attacks import ladder
 from raytruth.comparisons.grading.assignment_file import READY_FOLDER
 from tests.raytruth.running import document, refusal, run
 
@@ -77,3 +78,28 @@ def test_one_starts_from_a_commented_assignment_and_the_schema_is_printed(
     assert (tmp_path / "mine.toml").read_text() == (READY_FOLDER / "whitted.toml").read_text()
     assert "is there already" in refusal(capsys, "grade", "--init", "mine.toml")
     assert document(capsys, "grade", "--schema")["title"] == "raytruth assignment"
+
+
+@pytest.mark.clause("SBX-5")
+def test_the_sandbox_is_told_kept_in_the_grade_and_refused_where_there_is_none(
+    command: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, _, err = run(capsys, "grade", "--out", "graded", *command)
+    held = json.loads((tmp_path / "graded" / "grade.json").read_text())["sandbox"]
+    assert f"The program runs in {'no sandbox' if held['rung'] == 'none' else 'the sandbox ' + held['rung']}" in err
+    assert "<h2>Sandbox</h2>" in (tmp_path / "graded" / "teacher.html").read_text()
+    assert "andbox" not in (tmp_path / "graded" / "student.html").read_text()
+    monkeypatch.setattr(ladder, "missing_for", lambda rung: f"{rung} is switched off")
+    monkeypatch.setattr(ladder, "_machine", lambda: "another")
+    refused = refusal(capsys, "grade", "--sandbox", "landlock", *command)
+    assert "--sandbox landlock: no sandbox works here" in refused
+    assert "landlock is switched off" in refused
+
+
+@pytest.mark.clause("SBX-3")
+def test_a_program_that_reads_its_assignment_in_a_sandbox_gets_nothing(
+    command: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "black.py").write_text("print(open('one.toml').read())".replace("one.toml", str(tmp_path / "one.toml")))
+    _, out, err = run(capsys, "grade", *command)
+    assert ("the sandbox" in err) == ("title = " not in out)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import shlex
-import shutil
 import time
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.comparisons.processes.isolation import LOG_FILE, end_of_log, run_isolated
+from raytruth.comparisons.processes.removal import remove
 from raytruth.comparisons.records.image_files import ImageError
 from raytruth.comparisons.records.renderings import FirstHits, RendererError, Rendering
 from raytruth.comparisons.renderers.program.command import counted_files, filled_command
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.records.renderings import Image, Rays
     from raytruth.comparisons.renderers.program.declaration import Declaration
+    from raytruth.comparisons.sandboxes.sandbox import Sandbox
     from raytruth.scenes.scene import Scene
 
 MEBIBYTE = 1 << 20
@@ -50,6 +51,8 @@ class ProgramRenderer:
     """Where the paths in the declaration start."""
     chosen_by: str
     """What chooses it on the command line: an option with its value, as a shell takes it."""
+    sandbox: Sandbox | None = None
+    """What it runs in; None: with all that we may do ourselves."""
 
     @property
     def name(self) -> str:
@@ -192,6 +195,7 @@ class ProgramRenderer:
             memory_bytes=declared.limits.memory_mib * MEBIBYTE,
             file_bytes=declared.limits.output_mib * MEBIBYTE,
             environment=declared.environment,
+            sandbox=self.sandbox,
         )
 
 
@@ -200,7 +204,7 @@ def _keep_only(folder: Path, work: Path, names: tuple[str, ...]) -> None:
     kept = [name for name in names if (work / name).is_file() and not (work / name).is_symlink()]
     for path in folder.iterdir():
         if path != work:
-            shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
+            remove(path)
     for name in kept:
         (work / name).replace(folder / name)
-    shutil.rmtree(work, ignore_errors=True)
+    remove(work)
