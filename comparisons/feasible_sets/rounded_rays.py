@@ -29,7 +29,7 @@ from raytruth.reference_tracer.source.scene_data import MATERIAL_INDEX, MATERIAL
 from raytruth.reference_tracer.source.traversal import NOTHING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
@@ -164,16 +164,21 @@ def _exact_camera(scene: Scene, error_model: ErrorModel) -> PreparedScene | None
 
 def store_indices(prepared: PreparedScene, bits: int | None) -> None:
     """Round the indices of refraction in the tables, as a renderer with so few bits does; None: as all numbers."""
+    linked = prepared.arithmetic.functions.get("ball")
+    for place, value in rounded_indices(prepared.scene, prepared.data, bits):
+        prepared.data.numbers[place] = linked(arb(value)) if linked else arb(value)
+
+
+def rounded_indices(scene: Scene, data: SceneData, bits: int | None) -> Iterator[tuple[int, float]]:
+    """The indices of refraction, rounded to so many bits, and where they stand among the numbers; none for None."""
     if bits is None:
         return
-    linked = prepared.arithmetic.functions.get("ball")
-    exact = prepare(prepared.scene, FLOAT).data.numbers
+    exact = prepare(scene, FLOAT).data.numbers
     for table in (MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX):
-        first = prepared.data.integers[table]
-        for place in range(first, first + rows_of(prepared.data, table)):
+        first = data.integers[table]
+        for place in range(first, first + rows_of(data, table)):
             mantissa, exponent = math.frexp(exact[place])
-            rounded = arb(math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits))
-            prepared.data.numbers[place] = linked(rounded) if linked else rounded
+            yield place, math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits)
 
 
 def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:

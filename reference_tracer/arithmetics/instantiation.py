@@ -20,7 +20,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
+from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, inner_name
 from raytruth.reference_tracer.source import features as all_features
 
 if TYPE_CHECKING:
@@ -122,6 +122,10 @@ def kernel_source(
     for name, helper in helpers.items():
         functions[name], its_literals = _pruned_helper(helper, frozenset(features))
         namer.names.update(its_literals)
+    for name, outer in behaviour.around.items():
+        if name in functions:  # a scene may not require it
+            functions[inner_name(name)] = _renamed(functions[name], inner_name(name))
+            functions[name] = _PrunedFunction(namer.visit(_FeaturePruner(features).prune(_override(name, outer))))
     reached = _reachable(functions, entry_points)
     mentioned = frozenset().union(*(function.mentions for function in reached))
     parts = [ast.unparse(constant) for name, constant in constants.items() if name in mentioned]
@@ -134,6 +138,12 @@ def kernel_source(
         ]
         parts.append(_changed_text(function, changes))
     return "\n".join(parts), {name: value for name, value in namer.names.items() if name in mentioned}
+
+
+def _renamed(function: _PrunedFunction, name: str) -> _PrunedFunction:
+    definition = copy.copy(function.definition)
+    definition.name = name
+    return _PrunedFunction(definition)
 
 
 def _changed_text(function: _PrunedFunction, changes: list[ast.NodeTransformer]) -> str:

@@ -145,7 +145,7 @@ def rounded(center: Ball, exact: Ball, first: Link, second: Link) -> LinkedNumbe
     return made(center, rounded_ball(exact, roundoff), error, first, second)
 
 
-def number_of(ball: Ball) -> LinkedNumber:
+def linked_number(ball: Ball) -> LinkedNumber:
     """A number of which only this is known: anything in the ball."""
     return made(Ball(ball.middle, 0.0), ball, ball.radius, NO_LINK, NO_LINK)
 

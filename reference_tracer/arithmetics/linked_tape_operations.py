@@ -45,13 +45,13 @@ def range_of(number: LinkedNumber) -> Ball:
 
 
 def linked_sum(a: LinkedNumber, b: LinkedNumber) -> LinkedNumber:
-    """a + b. The derivatives are 1."""
+    """A + b. The derivatives are 1."""
     center = balls.add(center_of(a), center_of(b), 0.0)
     return rounded(center, balls.add(range_of(a), range_of(b), 0.0), link_to(a, ONE), link_to(b, ONE))
 
 
 def linked_difference(a: LinkedNumber, b: LinkedNumber) -> LinkedNumber:
-    """a - b. The derivatives are 1 and -1."""
+    """A - b. The derivatives are 1 and -1."""
     center = balls.sub(center_of(a), center_of(b), 0.0)
     return rounded(center, balls.sub(range_of(a), range_of(b), 0.0), link_to(a, ONE), link_to(b, MINUS_ONE))
 

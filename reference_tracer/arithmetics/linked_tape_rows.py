@@ -37,30 +37,50 @@ COORDINATES = 6
 
 def keep_ray(origin: Any, direction: Any) -> int:
     """Keep a ray as rows, one after the other; gives the first one's number."""
+    first = keep_number(origin[0], 0, COORDINATES)
+    for coordinate in range(1, 3):
+        keep_number(origin[coordinate], coordinate, COORDINATES)
+    for coordinate in range(3):
+        keep_number(direction[coordinate], 3 + coordinate, COORDINATES)
+    return first
+
+
+def keep_number(number: LinkedNumber, place: int, count: int) -> int:
+    """Keep a number, one of so many that are kept together, the first at place 0; gives its row's number."""
     tape = state().tape
-    first, symbols = tape.counts[ROWS], tape.counts[SYMBOLS]
-    for coordinate in range(3):
-        _new_row(origin[coordinate], symbols + coordinate, symbols + COORDINATES)
-    for coordinate in range(3):
-        _new_row(direction[coordinate], symbols + 3 + coordinate, symbols + COORDINATES)
-    found: int = first
-    return found
+    return _new_row(number, tape.counts[SYMBOLS] + place, tape.counts[SYMBOLS] + count)
 
 
 def kept_ray(first: int) -> Any:
     """The ray whose first row this is, on a tape of constants and of this ray alone."""
+    begin_with(first)
+    origin = (kept_number(first), kept_number(first + 1), kept_number(first + 2))
+    return origin, (kept_number(first + 3), kept_number(first + 4), kept_number(first + 5))
+
+
+def begin_with(first: int) -> None:
+    """Forget all numbers but the constants: what comes next has the symbols of the rows that begin with this one."""
     tape = state().tape
-    forget_numbers()
+    forget_numbers(tape.capacity.constants)
     tape.counts[SYMBOLS] = tape.row_widths[first]
-    origin = (_of_row(first), _of_row(first + 1), _of_row(first + 2))
-    return origin, (_of_row(first + 3), _of_row(first + 4), _of_row(first + 5))
 
 
-def forget_numbers() -> None:
-    """Give back the room of all numbers but the constants."""
+def begin_anew() -> None:
+    """Forget all numbers but the constants, and all symbols."""
     tape = state().tape
-    tape.counts[HEIGHT] = tape.capacity.constants
+    forget_numbers(tape.capacity.constants)
     tape.counts[SYMBOLS] = 0
+
+
+def numbers_made() -> int:
+    """How many numbers are on the tape."""
+    count: int = state().tape.counts[HEIGHT]
+    return count
+
+
+def forget_numbers(count: int) -> None:
+    """Give back the room of all numbers but the first ones."""
+    state().tape.counts[HEIGHT] = count
 
 
 def forget_rays(first: int) -> None:
@@ -84,7 +104,7 @@ def with_own_error(number: LinkedNumber) -> LinkedNumber:
         return number
     row = _new_row(number, symbols, symbols + 1)
     tape.counts[SYMBOLS] = symbols + 1
-    return _of_row(row)
+    return kept_number(row)
 
 
 def work_done() -> int:
@@ -150,7 +170,7 @@ def _linear_part(start: int, error: float) -> float:
     return rest
 
 
-def _of_row(row: int) -> LinkedNumber:
-    """The number of a row, on the tape."""
+def kept_number(row: int) -> LinkedNumber:
+    """The number of a row, on the tape, which has begun with the first row of those that it was kept with."""
     tape = state().tape
     return made(Ball(tape.row_centers[row], 0.0), tape.row_ranges[row], 0.0, Link(ROW, ZERO), Link(row, ZERO))

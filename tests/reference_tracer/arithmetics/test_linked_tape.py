@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import operator
 from typing import TYPE_CHECKING, Any
 
@@ -141,7 +140,7 @@ def is_tame(name: str, a: Ball, b: Ball) -> bool:
     """Whether an operation has no reason to overflow, or to take a number for what it is not meant for."""
     largest = abs(a.middle) + a.radius
     if name == "power":
-        return largest < 100.0 and 0.0 < b.middle - b.radius and b.middle + b.radius < 20.0
+        return largest < 100.0 and b.middle - b.radius > 0.0 and b.middle + b.radius < 20.0
     if name == "tan":
         return largest < 1.5
     if name == "exp":

@@ -1,0 +1,153 @@
+"""What a compiled kernel of linked numbers is asked for: one ray of a pixel's tree at a time.
+
+These functions become part of the kernel (behaviour.py), where they may use what the source has. Between two calls a
+ray is kept as six rows (linked_tape_rows.py), what the camera's rays share as the first fifteen.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from raytruth.reference_tracer.arithmetics.linked_tape import box_of, linked_number
+from raytruth.reference_tracer.arithmetics.linked_tape_rows import (
+    begin_anew,
+    begin_with,
+    forget_numbers,
+    forget_rays,
+    keep_number,
+    keep_ray,
+    kept_number,
+    kept_ray,
+    numbers_made,
+    with_own_error,
+)
+from raytruth.reference_tracer.arithmetics.scripted_decisions import (
+    MOST_WAYS,
+    next_answer,
+    next_way,
+    paused,
+    resume,
+)
+from raytruth.reference_tracer.source.camera import camera_frame, primary_ray
+from raytruth.reference_tracer.source.ray_tree import hit_point, trace_ray
+from raytruth.reference_tracer.source.traversal import NOTHING, nearest_hit, surface_normal
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from raytruth.reference_tracer.source.numbers import Scalar, Table, Vector
+    from raytruth.reference_tracer.source.scene_data import SceneData
+
+FRAME_ROWS = 15
+"""Five vectors (source/camera.py)."""
+MOST_CHILDREN = 3
+"""A mirror's, and two of a dielectric (source/ray_tree.py)."""
+
+inner_nearest_hit: Callable[..., Any]
+inner_is_occluded: Callable[..., Any]
+
+
+def kept_frame(scene: SceneData) -> None:
+    """Keep what the camera's rays share."""
+    begin_anew()
+    forget_rays(0)
+    frame = camera_frame(scene)
+    for vector in range(5):
+        for coordinate in range(3):
+            keep_number(frame[vector][coordinate], 3 * vector + coordinate, FRAME_ROWS)
+
+
+def kept_vector(row: int) -> Vector:
+    """Three numbers that were kept one after the other."""
+    return kept_number(row), kept_number(row + 1), kept_number(row + 2)
+
+
+def kept_primary_ray(x: Any, y: Any, found: Table) -> None:
+    """Keep the ray through a point of the image, of which two balls are known; give its row. It is the only one."""
+    forget_rays(FRAME_ROWS)
+    begin_with(0)
+    frame = (kept_vector(0), kept_vector(3), kept_vector(6), kept_vector(9), kept_vector(12))
+    origin, direction = primary_ray(frame, linked_number(x), linked_number(y))
+    found[0] = keep_ray(origin, direction)
+
+
+def followed_ray(
+    scene: SceneData, row: int, weight: Any, left: int, medium: int, depth: int, boxes: Table, children: Table
+) -> None:
+    """Trace a kept ray whose weight is three balls.
+
+    `boxes`, of shape (1 + MOST_CHILDREN, 3), gets what it brings by itself, and the weights of the rays that go on;
+    `children` gets for each of these its row, what it left, its medium and its depth, and before them their number.
+    """
+    origin, direction = kept_ray(row)
+    linked = (linked_number(weight[0]), linked_number(weight[1]), linked_number(weight[2]))
+    waiting = [(origin, direction, linked, left, medium, depth)]
+    local = trace_ray(scene, waiting.pop(), waiting)
+    for channel in range(3):
+        boxes[0, channel] = box_of(local[channel])
+    children[0, 0] = len(waiting)
+    while len(waiting) > 0:
+        place = len(waiting)
+        origin, direction, linked, left, medium, depth = waiting.pop()
+        for channel in range(3):
+            boxes[place, channel] = box_of(linked[channel])
+        children[place, 0] = keep_ray(origin, direction)
+        children[place, 1] = left
+        children[place, 2] = medium
+        children[place, 3] = depth
+
+
+def first_hit(scene: SceneData, row: int, boxes: Table, found: Table) -> None:
+    """What a kept ray meets: the primitive, and boxes of distance, position and normal."""
+    origin, direction = kept_ray(row)
+    distance, primitive = nearest_hit(scene, origin, direction, NOTHING)
+    found[0] = primitive
+    if primitive != NOTHING:
+        point = hit_point(scene, origin, direction, distance, primitive)
+        normal = surface_normal(scene, primitive, point)
+        boxes[0] = box_of(distance)
+        for coordinate in range(3):
+            boxes[1 + coordinate] = box_of(point[coordinate])
+            boxes[4 + coordinate] = box_of(normal[coordinate])
+
+
+def nearest_hit_with_error(scene: SceneData, origin: Vector, direction: Vector, left: int) -> tuple[Scalar, int]:
+    """Around `nearest_hit`: with a symbol for what rounding may add to the distance.
+
+    It moves the point that is hit along the ray. So the point's coordinates share it, and a point that is found at a
+    grazing angle is known to be much nearer to its surface than any of its coordinates is known.
+    """
+    distance, primitive = inner_nearest_hit(scene, origin, direction, left)
+    if primitive != NOTHING:
+        distance = with_own_error(distance)
+    return distance, primitive
+
+
+def occlusion_decided_once(scene: SceneData, origin: Vector, direction: Vector, left: int, end: Scalar) -> bool:
+    """Around `is_occluded`: one decision, however many comparisons it rests on.
+
+    A shadow ray to a corner leaves open, of each triangle there, by which of its edges it may pass: all these ways end
+    in light or in shadow. Where they do not all agree, or are too many, both are possible.
+    """
+    made = numbers_made()
+    was = paused()
+    light = False
+    shadow = False
+    ways = 0
+    searching = True
+    while searching:
+        if inner_is_occluded(scene, origin, direction, left, end):
+            shadow = True
+        else:
+            light = True
+        forget_numbers(made)
+        ways += 1
+        searching = not (light and shadow) and next_way(was.recorded)
+        if searching and ways == MOST_WAYS:
+            light = True
+            shadow = True
+            searching = False
+    resume(was)
+    if light and shadow:
+        return next_answer()
+    return shadow
