@@ -15,11 +15,12 @@ from raytruth.reference_tracer.compiler.compilation import Program
 from raytruth.reference_tracer.compiler.types import Array, Float, Integer, Tuple
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping
+    from collections.abc import Collection, Mapping
 
     from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
     from raytruth.reference_tracer.arithmetics.linked_tape import LinkedTape
     from raytruth.reference_tracer.arithmetics.linked_tape_arithmetic import TapeConstants
+    from raytruth.reference_tracer.compiler.loading import LoadedFunction
     from raytruth.reference_tracer.compiler.types import Type
 
 INTEGER, INTEGERS = Integer(), Array(Integer())
@@ -76,7 +77,7 @@ STACK_CAPACITY = 1 + linked_steps.MOST_CHILDREN
 
 def linked_program(
     features: Collection[str], behaviour: Behaviour, arithmetic: Arithmetic, constants: TapeConstants
-) -> Mapping[str, Callable[..., None]]:
+) -> Mapping[str, LoadedFunction]:
     """The functions of linked_steps.py, compiled for scenes with these features.
 
     Raises NotCompilableError for a behaviour that the compiler does not know.
@@ -100,7 +101,7 @@ def _entry_points(arithmetic: Arithmetic) -> dict[str, tuple[Type, ...]]:
     scene, weight = scene_type(arithmetic), Tuple((BALL,) * 3)
     return {
         "kept_frame": (scene,),
-        "kept_primary_ray": (BALL, BALL, INTEGERS),
-        "followed_ray": (scene, INTEGER, weight, INTEGER, INTEGER, INTEGER, Array(BALL, 2), Array(INTEGER, 2)),
-        "first_hit": (scene, INTEGER, Array(BALL), INTEGERS),
+        "kept_primary_ray": (INTEGERS, BALL, BALL),
+        "followed_ray": (scene, Array(BALL, 2), Array(INTEGER, 2), INTEGER, weight, INTEGER, INTEGER, INTEGER),
+        "first_hit": (scene, Array(BALL), INTEGERS, INTEGER),
     }

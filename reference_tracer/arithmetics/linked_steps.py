@@ -62,7 +62,7 @@ def kept_vector(row: int) -> Vector:
     return kept_number(row), kept_number(row + 1), kept_number(row + 2)
 
 
-def kept_primary_ray(x: Any, y: Any, found: Table) -> None:
+def kept_primary_ray(found: Table, x: Any, y: Any) -> None:
     """Keep the ray through a point of the image, of which two balls are known; give its row. It is the only one."""
     forget_rays(FRAME_ROWS)
     begin_with(0)
@@ -72,7 +72,7 @@ def kept_primary_ray(x: Any, y: Any, found: Table) -> None:
 
 
 def followed_ray(
-    scene: SceneData, row: int, weight: Any, left: int, medium: int, depth: int, boxes: Table, children: Table
+    scene: SceneData, boxes: Table, children: Table, row: int, weight: Any, left: int, medium: int, depth: int
 ) -> None:
     """Trace a kept ray whose weight is three balls.
 
@@ -97,7 +97,7 @@ def followed_ray(
         children[place, 3] = depth
 
 
-def first_hit(scene: SceneData, row: int, boxes: Table, found: Table) -> None:
+def first_hit(scene: SceneData, boxes: Table, found: Table, row: int) -> None:
     """What a kept ray meets: the primitive, and boxes of distance, position and normal."""
     origin, direction = kept_ray(row)
     distance, primitive = nearest_hit(scene, origin, direction, NOTHING)
