@@ -12,6 +12,7 @@ from raytruth.reference_tracer.arithmetics.linked_tape_memory import BALL, tape_
 from raytruth.reference_tracer.arithmetics.scripted_decisions import DECISIONS, ScriptedDecisions
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 from raytruth.reference_tracer.compiler.compilation import Program
+from raytruth.reference_tracer.compiler.names import NotCompilableError
 from raytruth.reference_tracer.compiler.types import Array, Float, Integer, Tuple
 
 if TYPE_CHECKING:
@@ -54,8 +55,8 @@ NAMES: dict[str, Any] = {
     function.__name__: function
     for function in (
         linked_tape.box_of,
-        linked_tape.linked_number,
-        linked_tape_rows.begin_anew,
+        linked_tape.number_of_ball,
+        linked_tape_rows.reset,
         linked_tape_rows.begin_with,
         linked_tape_rows.forget_numbers,
         linked_tape_rows.forget_rays,
@@ -64,7 +65,7 @@ NAMES: dict[str, Any] = {
         linked_tape_rows.kept_number,
         linked_tape_rows.kept_ray,
         linked_tape_rows.numbers_made,
-        linked_tape_rows.with_own_error,
+        linked_tape_rows.hit_with_error,
         scripted_decisions.next_answer,
         scripted_decisions.next_way,
         scripted_decisions.paused,
@@ -82,6 +83,9 @@ def linked_program(
 
     Raises NotCompilableError for a behaviour that the compiler does not know.
     """
+    lists = [name for name, value in behaviour.constants.items() if isinstance(value, list)]
+    if lists:
+        raise NotCompilableError(f"{behaviour.name} has a list of numbers: {lists[0]}")
     plain = Behaviour({**PLAIN_FORMS, **behaviour.functions}, behaviour.helpers, behaviour.constants, behaviour.name)
     kinds = _entry_points(arithmetic)
     source, literals = kernel_source(features, merged(plain, STEPS), entry_points=tuple(kinds))

@@ -7,7 +7,8 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.feasible_sets.feasible_pixel import FirstHit, PixelEvaluator, UndecidableError, widest
-from raytruth.comparisons.feasible_sets.rounded_rays import LinkedRays, PlainRays
+from raytruth.comparisons.feasible_sets.linked_pixels import LinkedPixels
+from raytruth.comparisons.feasible_sets.rounded_rays import PlainRays
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,9 +26,6 @@ FLOAT32_BITS = 24
 # balls count takes 2 to 4 µs, and a pixel is evaluated in them twice at most: 2 · 2^12 · 2.7 µs = 22 ms. The library
 # needs 3,600 at most.
 PLAIN_WORK = 2**12
-# What linked balls count takes 0.5 to 1.2 µs, mostly 0.8: 2^16 · 0.8 µs = 52 ms a pixel, shared by those that need it.
-# The library needs 87 % of such a share at most, and 76 % but for one pixel.
-LINKED_WORK = 2**16
 
 Pixel = tuple[int, int]
 """Column and row."""
@@ -56,14 +54,12 @@ class PixelOutcomes:
         share: float = 1.0,
     ) -> None:
         self._model, self._model_of_light = error_model, error_model.of_light()
-        self._linked_work = int(LINKED_WORK * scene.camera.width * scene.camera.height * share)
+        self._linked_share = scene.camera.width * scene.camera.height * share
         # Made only where they are needed; often the error model is that of light, too.
         self._plain = cache(
             lambda model: PixelEvaluator(PlainRays(scene, model, behaviour), bound, FLOAT32_BITS, PLAIN_WORK)
         )
-        self._linked = cache(
-            lambda model: PixelEvaluator(LinkedRays(scene, model, behaviour), bound, FLOAT32_BITS, LINKED_WORK)
-        )
+        self._linked = cache(lambda model: LinkedPixels(scene, model, behaviour, bound, FLOAT32_BITS))
 
     def colors_and_hits(
         self, pixels: Sequence[Pixel], *, with_colors: bool = True, with_hits: bool = True, brightest: float = 0.0
@@ -93,7 +89,8 @@ class PixelOutcomes:
         if not unclear and not wide:
             return
         linked = self._linked(model)
-        linked.most_work = self._linked_work // len([*unclear, *wide])
+        linked.expect(len([*unclear, *wide]))
+        linked.share = self._linked_share / len([*unclear, *wide])
         for place in unclear:
             pixel = pixels[place]
             colors[place] = _colors(linked, pixel)
@@ -136,14 +133,14 @@ def brightest_of(colors: Sequence[Colors | None]) -> float:
     return max((float(channel.mid()) for box in known for channel in box), default=0.0)
 
 
-def _colors(evaluator: PixelEvaluator, pixel: Pixel, *, may_merge: bool = True) -> Colors | None:
+def _colors(evaluator: PixelEvaluator | LinkedPixels, pixel: Pixel, *, may_merge: bool = True) -> Colors | None:
     try:
         return Colors(*evaluator.colors(*pixel, may_merge=may_merge), evaluator.spent)
     except UndecidableError:
         return None
 
 
-def _first_hits(evaluator: PixelEvaluator, pixel: Pixel) -> list[FirstHit] | None:
+def _first_hits(evaluator: PixelEvaluator | LinkedPixels, pixel: Pixel) -> list[FirstHit] | None:
     try:
         return evaluator.first_hits(*pixel)
     except UndecidableError:

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from raytruth.reference_tracer.arithmetics.linked_tape import box_of, linked_number
+from raytruth.reference_tracer.arithmetics.linked_tape import box_of, number_of_ball
 from raytruth.reference_tracer.arithmetics.linked_tape_rows import (
-    begin_anew,
+    reset,
     begin_with,
     forget_numbers,
     forget_rays,
@@ -19,7 +19,7 @@ from raytruth.reference_tracer.arithmetics.linked_tape_rows import (
     kept_number,
     kept_ray,
     numbers_made,
-    with_own_error,
+    hit_with_error,
 )
 from raytruth.reference_tracer.arithmetics.scripted_decisions import (
     MOST_WAYS,
@@ -49,7 +49,7 @@ inner_is_occluded: Callable[..., Any]
 
 def kept_frame(scene: SceneData) -> None:
     """Keep what the camera's rays share."""
-    begin_anew()
+    reset()
     forget_rays(0)
     frame = camera_frame(scene)
     for vector in range(5):
@@ -64,10 +64,11 @@ def kept_vector(row: int) -> Vector:
 
 def kept_primary_ray(found: Table, x: Any, y: Any) -> None:
     """Keep the ray through a point of the image, of which two balls are known; give its row. It is the only one."""
+    reset()
     forget_rays(FRAME_ROWS)
     begin_with(0)
     frame = (kept_vector(0), kept_vector(3), kept_vector(6), kept_vector(9), kept_vector(12))
-    origin, direction = primary_ray(frame, linked_number(x), linked_number(y))
+    origin, direction = primary_ray(frame, number_of_ball(x), number_of_ball(y))
     found[0] = keep_ray(origin, direction)
 
 
@@ -80,7 +81,7 @@ def followed_ray(
     `children` gets for each of these its row, what it left, its medium and its depth, and before them their number.
     """
     origin, direction = kept_ray(row)
-    linked = (linked_number(weight[0]), linked_number(weight[1]), linked_number(weight[2]))
+    linked = (number_of_ball(weight[0]), number_of_ball(weight[1]), number_of_ball(weight[2]))
     waiting = [(origin, direction, linked, left, medium, depth)]
     local = trace_ray(scene, waiting.pop(), waiting)
     for channel in range(3):
@@ -119,7 +120,7 @@ def nearest_hit_with_error(scene: SceneData, origin: Vector, direction: Vector, 
     """
     distance, primitive = inner_nearest_hit(scene, origin, direction, left)
     if primitive != NOTHING:
-        distance = with_own_error(distance)
+        distance = hit_with_error(distance)
     return distance, primitive
 
 

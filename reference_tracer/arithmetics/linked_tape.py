@@ -146,7 +146,7 @@ def rounded(center: Ball, exact: Ball, first: Link, second: Link) -> LinkedNumbe
     return made(center, rounded_ball(exact, roundoff), error, first, second)
 
 
-def linked_number(ball: Ball) -> LinkedNumber:
+def number_of_ball(ball: Ball) -> LinkedNumber:
     """A number of which only this is known: anything in the ball."""
     return made(Ball(ball.middle, 0.0), ball, ball.radius, NO_LINK, NO_LINK)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import operator
 from typing import TYPE_CHECKING, Any
 
@@ -140,7 +141,10 @@ def is_tame(name: str, a: Ball, b: Ball) -> bool:
     """Whether an operation has no reason to overflow, or to take a number for what it is not meant for."""
     largest = abs(a.middle) + a.radius
     if name == "power":
-        return largest < 100.0 and b.middle - b.radius > 0.0 and b.middle + b.radius < 20.0
+        least, most = b.middle - b.radius, b.middle + b.radius
+        return largest < 100.0 and (
+            1.0 <= least < most < 20.0 or 0.0 < least < most <= 1.0 or 0.0 < least == most < 20.0
+        )
     if name == "tan":
         return largest < 1.5
     if name == "exp":
@@ -211,11 +215,12 @@ def test_operations_hold_the_values_at_infinities_denormals_zeros_and_nan(name: 
         for b in SPECIAL_BALLS if name in OF_TWO else SPECIAL_BALLS[:1]:
             tape.forget()
             start = tape.put(a), tape.put(b)
-            found = tape.box(tape.operate(name, *start)), tape.range(tape.operate(name, *start))
+            holding = tape.range(tape.operate(name, *start))
             (kept,) = tape.condensed([tape.operate(name, *start)])
-            for x, y, delta in [(x, y, delta) for x in ends(a) for y in ends(b) for delta in (-1.0, 1.0)]:
-                value = sampled(iter([delta]))(name, x, y)
-                for ball in (*found, tape.box(kept)):
+            deltas = itertools.cycle([-1.0, 1.0, 1.0])
+            for x, y in itertools.product(ends(a), ends(b)):
+                value = sampled(deltas)(name, x, y)
+                for ball in (holding, tape.box(kept)):
                     assert not value.is_finite() or holds_closely(ball, value), (name, a, b, ball, value)
 
 
