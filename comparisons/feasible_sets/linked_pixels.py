@@ -95,7 +95,7 @@ class LinkedPixels:
             return None
         try:
             return PixelEvaluator(TapeRays(*self._made_of), self._bound, self._output_bits, TAPE_WORK)
-        except NotCompilableError:
+        except (NotCompilableError, TapeIsFullError):
             return None
 
     @cached_property

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 from raytruth.reference_tracer.arithmetics.linked_tape import box_of, number_of_ball
 from raytruth.reference_tracer.arithmetics.linked_tape_rows import (
-    reset,
     begin_with,
     forget_numbers,
     forget_rays,
+    hit_with_error,
     keep_number,
     keep_ray,
     kept_number,
     kept_ray,
     numbers_made,
-    hit_with_error,
+    reset,
 )
 from raytruth.reference_tracer.arithmetics.scripted_decisions import (
     MOST_WAYS,
@@ -30,11 +30,9 @@ from raytruth.reference_tracer.arithmetics.scripted_decisions import (
 )
 from raytruth.reference_tracer.source.camera import camera_frame, primary_ray
 from raytruth.reference_tracer.source.ray_tree import hit_point, trace_ray
-from raytruth.reference_tracer.source.traversal import NOTHING, nearest_hit, surface_normal
+from raytruth.reference_tracer.source.traversal import NOTHING, is_occluded, nearest_hit, surface_normal
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from raytruth.reference_tracer.source.numbers import Scalar, Table, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
 
@@ -43,8 +41,8 @@ FRAME_ROWS = 15
 MOST_CHILDREN = 3
 """A mirror's, and two of a dielectric (source/ray_tree.py)."""
 
-inner_nearest_hit: Callable[..., Any]
-inner_is_occluded: Callable[..., Any]
+# In the kernel these are what the functions below are put around.
+inner_nearest_hit, inner_is_occluded = nearest_hit, is_occluded
 
 
 def kept_frame(scene: SceneData) -> None:

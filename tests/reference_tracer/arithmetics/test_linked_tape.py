@@ -105,9 +105,15 @@ def sampled(deltas: Iterator[float]) -> Callable[..., Any]:
 
 
 MIDDLES = st.floats(-100, 100, width=32) | st.integers(-3, 3).map(float)
-INPUTS = st.lists(
-    st.builds(Ball, MIDDLES, st.sampled_from([0.0, 0.0, 2.0**-24, 2.0**-10, 0.5])), min_size=2, max_size=4
-)
+
+
+def inputs_of(*radii: float) -> st.SearchStrategy[list[Ball]]:
+    return st.lists(st.builds(Ball, MIDDLES, st.sampled_from([0.0, 0.0, *radii])), min_size=2, max_size=4)
+
+
+INPUTS = inputs_of(2.0**-24, 2.0**-10, 0.5)
+# Of wide balls exponentials and quotients are up to 1/32 wider than they need be, each (float_balls.py).
+NARROW_INPUTS = inputs_of(2.0**-24, 2.0**-10)
 NAMES = [*OF_TWO, *OF_ONE, "condense", "+", "-", "*", "*", "sqrt"]
 STEPS = st.lists(st.tuples(st.sampled_from(NAMES), st.integers(0, 99), st.integers(0, 99)), min_size=1, max_size=16)
 PLACES_IN_BALLS = st.lists(st.floats(-1, 1) | st.sampled_from([-1.0, 1.0]), min_size=4, max_size=4)
@@ -184,7 +190,7 @@ def holds_closely(ball: Ball, value: Any) -> bool:
     return holds(ball, value.mid()) or bool(abs(value.mid() - arb(ball.middle)) <= arb(ball.radius) + value.rad())
 
 
-@given(STEPS, INPUTS)
+@given(STEPS, NARROW_INPUTS)
 def test_boxes_are_hardly_wider_than_arbs(steps: list[Step], inputs: list[Ball]) -> None:
     tape, numbers, steps = on_tape(steps, inputs)
     made = linked_arithmetic(BITS, Decisions())
