@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from raytruth.reference_tracer.arithmetics import linked_steps, linked_tape, linked_tape_rows, scripted_decisions
@@ -86,7 +87,7 @@ def linked_program(
     lists = [name for name, value in behaviour.constants.items() if isinstance(value, list)]
     if lists:
         raise NotCompilableError(f"{behaviour.name} has a list of numbers: {lists[0]}")
-    plain = Behaviour({**PLAIN_FORMS, **behaviour.functions}, behaviour.helpers, behaviour.constants, behaviour.name)
+    plain = replace(behaviour, functions={**PLAIN_FORMS, **behaviour.functions})
     kinds = _entry_points(arithmetic)
     source, literals = kernel_source(features, merged(plain, STEPS), entry_points=tuple(kinds))
     names = {

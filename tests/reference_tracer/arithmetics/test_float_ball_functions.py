@@ -15,10 +15,11 @@ from raytruth.reference_tracer.arithmetics.float_ball_functions import (
     LOG_TWO_HIGH,
     LOG_TWO_LOW,
     exp,
+    log,
     power,
     tan,
 )
-from raytruth.reference_tracer.arithmetics.float_balls import LARGEST, UNDERFLOW, Ball
+from raytruth.reference_tracer.arithmetics.float_balls import LARGEST, UNDERFLOW, Ball, rounded_ball
 from tests.reference_tracer.arithmetics.ball_draws import (
     NUMBER_OF_BALLS,
     ROUNDOFFS,
@@ -50,10 +51,16 @@ def exact_power(x: Any, y: Any) -> Any:
     return arb(0) if x <= 0 else x**y
 
 
+def exact_logarithm(x: Any, _: Any) -> Any:
+    """Of the part that is positive."""
+    return x.log() if x > 0 else arb(math.nan)
+
+
 FUNCTIONS: dict[str, tuple[Callable[[Ball, Ball, float], Ball], Callable[[Any, Any], Any]]] = {
     "exp": (lambda a, _, roundoff: exp(a, roundoff), lambda x, _: x.exp()),
     "tan": (lambda a, _, roundoff: tan(a, roundoff), lambda x, _: x.tan()),
     "power": (power, exact_power),
+    "log": (lambda a, _, roundoff: rounded_ball(log(a), roundoff), exact_logarithm),
 }
 
 
