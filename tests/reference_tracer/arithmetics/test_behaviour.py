@@ -82,7 +82,7 @@ def test_a_function_around_another_calls_the_sources_or_a_behaviours_own(arithme
     around = Behaviour(around={"attenuation": half_lit}, name="half the light")
     assert render(LIT, arithmetic, around)[0, 0, 0] == 0.5
     assert render(LIT, arithmetic, merged(around, BRIGHTER))[0, 0, 0] == 1.0625 / 2
-    with pytest.raises(ValueError, match="^half the light and half the light both say what inner_attenuation is$"):
+    with pytest.raises(ValueError, match="both say what inner_attenuation is"):
         merged(around, around)
 
 
