@@ -49,13 +49,13 @@ def kept_frame(scene: SceneData) -> None:
     """Keep what the camera's rays share."""
     reset()
     forget_rays(0)
-    frame = camera_frame(scene)
+    frame: Any = camera_frame(scene)
     for vector in range(5):
         for coordinate in range(3):
             keep_number(frame[vector][coordinate], 3 * vector + coordinate, FRAME_ROWS)
 
 
-def kept_vector(row: int) -> Vector:
+def kept_vector(row: int) -> Any:
     """Three numbers that were kept one after the other."""
     return kept_number(row), kept_number(row + 1), kept_number(row + 2)
 
@@ -66,7 +66,8 @@ def kept_primary_ray(found: Table, x: Any, y: Any) -> None:
     forget_rays(FRAME_ROWS)
     begin_with(0)
     frame = (kept_vector(0), kept_vector(3), kept_vector(6), kept_vector(9), kept_vector(12))
-    origin, direction = primary_ray(frame, number_of_ball(x), number_of_ball(y))
+    point: Any = (number_of_ball(x), number_of_ball(y))
+    origin, direction = primary_ray(frame, point[0], point[1])
     found[0] = keep_ray(origin, direction)
 
 
@@ -79,9 +80,9 @@ def followed_ray(
     `children` gets for each of these its row, what it left, its medium and its depth, and before them their number.
     """
     origin, direction = kept_ray(row)
-    linked = (number_of_ball(weight[0]), number_of_ball(weight[1]), number_of_ball(weight[2]))
-    waiting = [(origin, direction, linked, left, medium, depth)]
-    local = trace_ray(scene, waiting.pop(), waiting)
+    linked: Any = (number_of_ball(weight[0]), number_of_ball(weight[1]), number_of_ball(weight[2]))
+    waiting: Any = [(origin, direction, linked, left, medium, depth)]
+    local: Any = trace_ray(scene, waiting.pop(), waiting)
     for channel in range(3):
         boxes[0, channel] = box_of(local[channel])
     children[0, 0] = len(waiting)
@@ -99,11 +100,12 @@ def followed_ray(
 def first_hit(scene: SceneData, boxes: Table, found: Table, row: int) -> None:
     """What a kept ray meets: the primitive, and boxes of distance, position and normal."""
     origin, direction = kept_ray(row)
-    distance, primitive = nearest_hit(scene, origin, direction, NOTHING)
+    hit: Any = nearest_hit(scene, origin, direction, NOTHING)
+    distance, primitive = hit
     found[0] = primitive
     if primitive != NOTHING:
-        point = hit_point(scene, origin, direction, distance, primitive)
-        normal = surface_normal(scene, primitive, point)
+        point: Any = hit_point(scene, origin, direction, distance, primitive)
+        normal: Any = surface_normal(scene, primitive, point)
         boxes[0] = box_of(distance)
         for coordinate in range(3):
             boxes[1 + coordinate] = box_of(point[coordinate])
@@ -116,7 +118,8 @@ def nearest_hit_with_error(scene: SceneData, origin: Vector, direction: Vector, 
     It moves the point that is hit along the ray. So the point's coordinates share it, and a point that is found at a
     grazing angle is known to be much nearer to its surface than any of its coordinates is known.
     """
-    distance, primitive = inner_nearest_hit(scene, origin, direction, left)
+    hit: Any = inner_nearest_hit(scene, origin, direction, left)
+    distance, primitive = hit
     if primitive != NOTHING:
         distance = hit_with_error(distance)
     return distance, primitive

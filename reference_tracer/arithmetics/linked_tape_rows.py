@@ -150,7 +150,8 @@ def _new_row(number: LinkedNumber, own: int, width: int) -> int:
     tape.row_centers[row] = center
     tape.row_ranges[row] = holds
     tape.row_slopes[start + own] = rest
-    return row
+    found: int = row
+    return found
 
 
 def _swept(number: LinkedNumber) -> float:

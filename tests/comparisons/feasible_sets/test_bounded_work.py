@@ -37,7 +37,7 @@ UNLIMITED = 10**9
 CORNERS = 8
 WAYS = {"plain": PlainRays, "linked": LinkedRays, "tape": TapeRays}
 # As much as 41 rays take that look at two panes 16 times a pixel: some follow all of them, and some but the first.
-PANES_WORK = {"plain": 6_000, "linked": 150_000, "tape": 400_000}
+PANES_WORK = {"plain": 6_000, "linked": 150_000, "tape": 200_000}
 
 
 @cache
