@@ -1,6 +1,6 @@
 """Boxes of colours in balls of floats: what the rays of a pixel's tree may bring, in the compiler's language.
 
-They hold what feasible_pixel.py says of the same boxes in Arb's balls; nothing here is a renderer's, and so not rounded.
+They hold what feasible_pixel.py says of the same boxes in Arb's balls. Nothing here is done by a renderer, and rounded.
 """
 
 from __future__ import annotations
@@ -8,7 +8,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from raytruth.reference_tracer.arithmetics.float_ball_comparisons import certainly_less, equal
-from raytruth.reference_tracer.arithmetics.float_balls import LARGEST, OUTWARD, Ball, add, from_zero_to, hull, lower, upper
+from raytruth.reference_tracer.arithmetics.float_balls import (
+    LARGEST,
+    OUTWARD,
+    Ball,
+    add,
+    from_zero_to,
+    hull,
+    lower,
+    upper,
+)
 
 if TYPE_CHECKING:
     Box = tuple[Ball, Ball, Ball]

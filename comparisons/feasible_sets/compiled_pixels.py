@@ -51,7 +51,7 @@ class CompiledPixels:
         prepared = rays.prepared
         made = pixel_program(rays.behaviour)
         self.rays = rays
-        self.entries = made.program.compiled()
+        self.entries = made.entry_points
         self.data = SceneData(_balls_of(prepared.data.numbers), np.array(prepared.data.integers, dtype=np.int64))
         self.frame = tuple(tuple(map(from_arb, vector)) for vector in rays.frame)
         self.decisions, self.tree = decisions_memory(), tree_memory()
@@ -82,9 +82,7 @@ class CompiledPixels:
         return [_hits_of(*each) for each in zip(told.tolist(), primitives, values, strict=True)]
 
     def _call(self, name: str, pixels: Sequence[tuple[int, int]], may_merge: bool, *results: Any) -> None:
-        state = State(
-            *self.shared, self.decisions, self.tree, self._limits(may_merge), self.kept_rays, self.remembered
-        )
+        state = State(*self.shared, self.decisions, self.tree, self._limits(may_merge), self.kept_rays, self.remembered)
         places = np.array(pixels, dtype=np.int64).reshape(len(pixels), 2)
         camera_rays = np.zeros((1, 6, 2))
         if self.rays.has_exact_camera:

@@ -28,7 +28,7 @@ from raytruth.comparisons.feasible_sets.declared_outcomes import (
     proven,
     with_truth,
 )
-from raytruth.comparisons.feasible_sets.pixel_outcomes import PixelOutcomes, brightest_of
+from raytruth.comparisons.feasible_sets.plain_pixels import PixelOutcomes, brightest_of
 from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
 
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.feasible_sets.declared_outcomes import Bounds, DueHits
-    from raytruth.comparisons.feasible_sets.pixel_outcomes import Colors, Pixel
+    from raytruth.comparisons.feasible_sets.plain_pixels import Colors, Pixel
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.reference_tracer.certified_image import CertifiedImage
     from raytruth.scenes.scene import Scene

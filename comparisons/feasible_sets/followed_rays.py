@@ -143,7 +143,7 @@ def follow(scene: SceneData, node: int) -> None:
 
 
 def share_of(most: int, ways: int) -> int:
-    """most // ways, at least 1."""
+    """Most // ways, at least 1."""
     share = 1
     while (share + 1) * ways <= most:
         share = share + 1

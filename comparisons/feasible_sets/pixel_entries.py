@@ -47,18 +47,17 @@ from raytruth.reference_tracer.source.camera import primary_ray
 from raytruth.reference_tracer.source.ray_tree import hit_point
 from raytruth.reference_tracer.source.scene_data import CAMERA_MEDIUM, MAX_DEPTH, integer_of
 from raytruth.reference_tracer.source.traversal import NOTHING, surface_normal
+from raytruth.reference_tracer.source.traversal import is_occluded as inner_is_occluded
+from raytruth.reference_tracer.source.traversal import nearest_hit as inner_nearest_hit
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from raytruth.reference_tracer.source.numbers import Scalar, Table, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
 
-    inner_nearest_hit: Callable[..., Any]
-    inner_is_occluded: Callable[..., Any]
 
-
-def color_pixels(scene: SceneData, frame: Any, places: Table, count: int, rays: Table, boxes: Table, told: Table) -> None:
+def color_pixels(
+    scene: SceneData, frame: Any, places: Table, count: int, rays: Table, boxes: Table, told: Table
+) -> None:
     """Boxes of the feasible colours of each pixel, shape (n, MOST_OUTCOMES, 3).
 
     And of each is told how many there are (0: nothing can be said), whether they are merged, and whether the pixel's
@@ -144,11 +143,11 @@ def begin_pixel(frame: Any, column: int, row: int, rays: Table, pixel: int) -> N
     if radius < 0.0:
         origin = (known_number(rays[pixel, 0]), known_number(rays[pixel, 1]), known_number(rays[pixel, 2]))
         direction = (known_number(rays[pixel, 3]), known_number(rays[pixel, 4]), known_number(rays[pixel, 5]))
-        kept = keep_ray(origin, direction)
+        keep_ray(origin, direction)
     else:
         x, y = known_number(pixel_center(column, radius)), known_number(pixel_center(row, radius))
         origin, direction = primary_ray(frame, x, y)
-        kept = keep_ray(origin, direction)
+        keep_ray(origin, direction)
 
 
 def begin_tree(scene: SceneData) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from raytruth.comparisons.feasible_sets import followed_rays, pixel_entries, ray_sums
@@ -24,7 +25,10 @@ from raytruth.reference_tracer.compiler.questions import state
 from raytruth.reference_tracer.compiler.types import Array, Float, Integer, Tuple
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     from raytruth.comparisons.feasible_sets.tree_memory import Limits, Tree
+    from raytruth.reference_tracer.arithmetics.behaviour import Function
     from raytruth.reference_tracer.arithmetics.scripted_decisions import ScriptedDecisions
     from raytruth.reference_tracer.compiler.types import Type
     from raytruth.reference_tracer.source.numbers import Table
@@ -66,27 +70,33 @@ STATE = Tuple(
 
 
 class PixelProgram(NamedTuple):
-    """A program, and what it reads from its state by name."""
+    """A program's entry points, and what it reads from its state by name."""
 
-    program: Program
-    numbers: list[str]
-    lists: list[str]
+    entry_points: Mapping[str, Callable[..., None]]
+    numbers: tuple[str, ...]
+    lists: tuple[str, ...]
     literals: dict[str, float]
     """Those of the numbers that are literals of the source."""
 
 
 def pixel_program(behaviour: Behaviour) -> PixelProgram:
-    """The program for a behaviour."""
-    text, literals = kernel_source(
-        None,
-        Behaviour({**PLAIN_FORMS, **behaviour.functions}, behaviour.helpers, behaviour.constants, behaviour.name),
-        entry_points=ASKED,
-        decided_comparisons=True,
-    )
+    """The program for a behaviour, whatever its constants are. Raises NotCompilableError."""
+    lists = tuple(name for name, value in behaviour.constants.items() if isinstance(value, list))
+    numbers = tuple(behaviour.constants.keys() - set(lists))
+    return _pixel_program(tuple(sorted(behaviour.functions.items())), behaviour.helpers, tuple(sorted(numbers)), lists)
+
+
+@cache
+def _pixel_program(
+    functions: tuple[tuple[str, Function], ...],
+    helpers: tuple[Function, ...],
+    own: tuple[str, ...],
+    lists: tuple[str, ...],
+) -> PixelProgram:
+    behaviour = Behaviour({**PLAIN_FORMS, **dict(functions)}, helpers, dict.fromkeys((*own, *lists)))
+    text, literals = kernel_source(None, behaviour, entry_points=ASKED, decided_comparisons=True)
     long = {name: value for name, value in literals.items() if not is_short(value)}
-    constants = behaviour.constants
-    numbers = [PI, *long, *(name for name, value in constants.items() if not isinstance(value, list))]
-    lists = [name for name, value in constants.items() if isinstance(value, list)]
+    numbers = (PI, *long, *own)
     text = with_run_time_names(text, numbers, lists, AROUND)
     whole = "\n".join([text, *map(inspect.getsource, EVALUATOR)])
     names = {name: ROUNDED_FLOAT_BALLS.number(value) for name, value in literals.items() if name not in long}
@@ -94,7 +104,7 @@ def pixel_program(behaviour: Behaviour) -> PixelProgram:
     file = f"<evaluator in {ROUNDED_FLOAT_BALLS.name}>"
     operations = ROUNDED_FLOAT_BALLS.operations
     program = Program(whole, file, names, _entry_points(), operations, STACK_CAPACITY, STATE)
-    return PixelProgram(program, numbers, lists, long)
+    return PixelProgram(program.compiled(), numbers, lists, long)
 
 
 def _evaluator_names(text: str) -> dict[str, Any]:

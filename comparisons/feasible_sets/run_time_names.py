@@ -44,7 +44,9 @@ def with_run_time_names(text: str, numbers: Sequence[str], lists: Sequence[str],
 
 class _RunTimeNames(ast.NodeTransformer):
     def __init__(self, function: ast.FunctionDef, numbers: Mapping[str, int], lists: Mapping[str, int]) -> None:
-        stored = {node.id for node in ast.walk(function) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
+        stored = {
+            node.id for node in ast.walk(function) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+        }
         self.own = stored | {argument.arg for argument in function.args.args}
         self.numbers, self.lists = numbers, lists
 

@@ -1,7 +1,7 @@
 """Where the compiled evaluator keeps the ray tree of one pixel: arrays in the state of the program, made once.
 
-Nodes are rays, numbered as they are found, so that a ray's children come behind it. A node that is followed has a row of
-ways for each way that it may go, in order.
+Nodes are rays, numbered as they are found, so that a ray's children come behind it. A node that is followed has a row
+of `ways` for each way that it may go, in order.
 """
 
 from __future__ import annotations

@@ -30,7 +30,12 @@ class Behaviour:
     @property
     def names(self) -> tuple[str, ...]:
         """All names that it gives a meaning: of functions it replaces, of helpers and of constants."""
-        return (*self.functions, *map(inner_name, self.around), *(helper.__name__ for helper in self.helpers), *self.constants)
+        return (
+            *self.functions,
+            *map(inner_name, self.around),
+            *(helper.__name__ for helper in self.helpers),
+            *self.constants,
+        )
 
     def with_numbers(self, number: Function) -> Behaviour:
         """The behaviour for another number type: `number` converts each constant, and each number of a list."""

@@ -7,12 +7,13 @@ Arb (balls.py). A comparison that the balls leave open asks the decisions (scrip
 from __future__ import annotations
 
 import math
+
 from raytruth.reference_tracer.arithmetics import float_ball_comparisons as comparisons
 from raytruth.reference_tracer.arithmetics import float_ball_functions as functions
 from raytruth.reference_tracer.arithmetics import float_balls as balls
 from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
-from raytruth.reference_tracer.arithmetics.scripted_decisions import next_answer
 from raytruth.reference_tracer.arithmetics.float_balls import Ball
+from raytruth.reference_tracer.arithmetics.scripted_decisions import next_answer
 from raytruth.reference_tracer.compiler.questions import state
 
 

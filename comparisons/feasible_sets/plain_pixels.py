@@ -1,0 +1,100 @@
+"""The outcomes of many pixels in plain balls: compiled where that is worth its while and as tight, else in Arb's."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from raytruth.comparisons.feasible_sets.compiled_pixels import CompiledPixels, serves
+from raytruth.comparisons.feasible_sets.feasible_pixel import PixelEvaluator, UndecidableError
+from raytruth.comparisons.feasible_sets.rounded_rays import PlainRays
+from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.comparisons.feasible_sets.feasible_pixel import FirstHit
+    from raytruth.comparisons.feasible_sets.radiance_bound import RadianceBound
+    from raytruth.comparisons.feasible_sets.rounded_rays import Box
+    from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
+    from raytruth.scenes.scene import Scene
+
+# Arb takes up to a millisecond for each. To compile a kernel takes two seconds, and then it serves all scenes: eight
+# images of so few pixels take as long.
+FEW_PIXELS = 256
+
+Pixel = tuple[int, int]
+"""Column and row."""
+
+
+@dataclass(frozen=True)
+class Colors:
+    """The feasible colours of one pixel."""
+
+    boxes: list[Box]
+    merged: bool
+    """Whether they were too many to tell apart, or too long to find."""
+    spent: bool
+    """Whether they were too long to find: the pixel's work was spent before all of its rays were followed."""
+
+
+class PlainPixels:
+    """Finds the outcomes of a scene's pixels under one error model; what they are is told by PixelEvaluator."""
+
+    def __init__(
+        self,
+        scene: Scene,
+        error_model: ErrorModel,
+        behaviour: Behaviour,
+        bound: RadianceBound | None,
+        output_bits: int,
+        most_work: int,
+    ) -> None:
+        self._rays = PlainRays(scene, error_model, behaviour)
+        self._in_arb = PixelEvaluator(self._rays, bound, output_bits, most_work)
+        # A behaviour besides is that of a faulty tracer, of which there are many, each asked for a few pixels.
+        self._may_compile = behaviour is IDEAL and serves(error_model.precision_bits)
+
+    def colors(self, pixels: Sequence[Pixel], *, may_merge: bool) -> list[Colors | None]:
+        """The feasible colours of each pixel; None where nothing can be said."""
+        if not self._compiles(len(pixels)):
+            return [colors_in_arb(self._in_arb, pixel, may_merge=may_merge) for pixel in pixels]
+        found: list[Colors | None] = []
+        for pixel, color in zip(pixels, self._compiled.colors(pixels, may_merge=may_merge), strict=True):
+            if color.boxes is None:
+                found.append(colors_in_arb(self._in_arb, pixel, may_merge=may_merge))
+            else:
+                found.append(Colors(color.boxes, color.merged, color.spent) if color.boxes else None)
+        return found
+
+    def first_hits(self, pixels: Sequence[Pixel]) -> list[list[FirstHit] | None]:
+        """What each pixel's ray may meet first; None where nothing can be said."""
+        if not self._compiles(len(pixels)):
+            return [first_hits_in_arb(self._in_arb, pixel) for pixel in pixels]
+        found = zip(pixels, self._compiled.first_hits(pixels), strict=True)
+        return [first_hits_in_arb(self._in_arb, pixel) if hits is None else hits or None for pixel, hits in found]
+
+    def _compiles(self, pixels: int) -> bool:
+        return self._may_compile and (pixels >= FEW_PIXELS or "_compiled" in vars(self))
+
+    @cached_property
+    def _compiled(self) -> CompiledPixels:
+        return CompiledPixels(self._in_arb, self._rays)
+
+
+def colors_in_arb(evaluator: PixelEvaluator, pixel: Pixel, *, may_merge: bool = True) -> Colors | None:
+    """The feasible colours of a pixel; None where nothing can be said."""
+    try:
+        return Colors(*evaluator.colors(*pixel, may_merge=may_merge), evaluator.spent)
+    except UndecidableError:
+        return None
+
+
+def first_hits_in_arb(evaluator: PixelEvaluator, pixel: Pixel) -> list[FirstHit] | None:
+    """What a pixel's ray may meet first; None where nothing can be said."""
+    try:
+        return evaluator.first_hits(*pixel)
+    except UndecidableError:
+        return None
