@@ -9,13 +9,12 @@ from flint import arb, ctx
 
 from raytruth.comparisons.feasible_sets.feasible_pixel import MOST_OUTCOMES, FirstHit
 from raytruth.comparisons.feasible_sets.pixel_program import State, pixel_program
-from raytruth.comparisons.feasible_sets.run_time_names import FEATURES, LEAST_PRECISION_BITS
+from raytruth.comparisons.feasible_sets.run_time_names import FEATURES
 from raytruth.comparisons.feasible_sets.tree_memory import MOST_NODES, Limits, tree_memory
 from raytruth.reference_tracer.arithmetics.balls import stored_number
-from raytruth.reference_tracer.arithmetics.float_ball_conversions import from_arb, to_arb
-from raytruth.reference_tracer.arithmetics.float_balls import Ball
 from raytruth.reference_tracer.arithmetics.scripted_decisions import decisions_memory
 from raytruth.reference_tracer.source.scene_data import SceneData
+from raytruth.reference_tracer.source.traversal import NOTHING
 from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
@@ -26,9 +25,8 @@ if TYPE_CHECKING:
     from raytruth.comparisons.feasible_sets.feasible_pixel import PixelEvaluator
     from raytruth.comparisons.feasible_sets.pixel_program import PixelProgram
     from raytruth.comparisons.feasible_sets.rounded_rays import Box, PlainRays
+    from raytruth.comparisons.feasible_sets.set_arithmetics import SetArithmetic
 
-MOST_PRECISION_BITS = 48
-"""Beyond, what the floats lose themselves, 2^-53 an operation, is more than a 32nd of a roundoff."""
 SEVEN = 7
 """Numbers of a first hit: distance, position, normal."""
 
@@ -47,16 +45,16 @@ class CompiledPixels:
     Raises NotCompilableError for a behaviour that the compiler does not know.
     """
 
-    def __init__(self, evaluator: PixelEvaluator, rays: PlainRays) -> None:
-        prepared = rays.prepared
-        made = pixel_program(rays.behaviour)
-        self.rays = rays
+    def __init__(self, evaluator: PixelEvaluator, rays: PlainRays, balls: SetArithmetic) -> None:
+        prepared, parts = rays.prepared, balls.parts
+        made = pixel_program(rays.behaviour, balls)
+        self.rays, self.balls = rays, balls
         self.entries = made.entry_points
-        self.data = SceneData(_balls_of(prepared.data.numbers), np.array(prepared.data.integers, dtype=np.int64))
-        self.frame = tuple(tuple(map(from_arb, vector)) for vector in rays.frame)
-        self.decisions, self.tree = decisions_memory(), tree_memory()
-        self.kept_rays, self.remembered = np.zeros((MOST_NODES, 6, 2)), np.zeros((1, 2))
-        constants, starts = _constants(made, rays)
+        self.data = SceneData(_balls_of(prepared.data.numbers, balls), np.array(prepared.data.integers, dtype=np.int64))
+        self.frame = tuple(tuple(map(balls.of_arb, vector)) for vector in rays.frame)
+        self.decisions, self.tree = decisions_memory(), tree_memory(parts)
+        self.kept_rays, self.remembered = np.zeros((MOST_NODES, 6, parts)), np.zeros((1, parts))
+        constants, starts = _constants(made, rays, balls)
         features = required_features(prepared.scene)
         self.shared = (
             2.0**-rays.precision_bits,
@@ -68,27 +66,27 @@ class CompiledPixels:
 
     def colors(self, pixels: Sequence[tuple[int, int]], *, may_merge: bool) -> list[FoundColors]:
         """The feasible colours of each pixel, a column and a row."""
-        boxes = np.zeros((len(pixels), MOST_OUTCOMES, 3, 2))
+        boxes = np.zeros((len(pixels), MOST_OUTCOMES, 3, self.balls.parts))
         told = np.zeros((len(pixels), 3), dtype=np.int64)
         self._call("color_pixels", pixels, may_merge, boxes, told)
-        return [_colors_of(*both) for both in zip(told.tolist(), boxes, strict=True)]
+        return [self._colors_of(*both) for both in zip(told.tolist(), boxes, strict=True)]
 
     def first_hits(self, pixels: Sequence[tuple[int, int]]) -> list[list[FirstHit] | None]:
         """What each pixel's ray may meet first; empty where nothing can be said, None where there was no room."""
         primitives = np.zeros((len(pixels), MOST_OUTCOMES), dtype=np.int64)
-        values = np.zeros((len(pixels), MOST_OUTCOMES, SEVEN, 2))
+        values = np.zeros((len(pixels), MOST_OUTCOMES, SEVEN, self.balls.parts))
         told = np.zeros(len(pixels), dtype=np.int64)
-        self._call("hit_pixels", pixels, False, primitives, values, told)
-        return [_hits_of(*each) for each in zip(told.tolist(), primitives, values, strict=True)]
+        self._call("hit_pixels", pixels, True, primitives, values, told)
+        return [self._hits_of(*each) for each in zip(told.tolist(), primitives, values, strict=True)]
 
     def _call(self, name: str, pixels: Sequence[tuple[int, int]], may_merge: bool, *results: Any) -> None:
         state = State(*self.shared, self.decisions, self.tree, self._limits(may_merge), self.kept_rays, self.remembered)
         places = np.array(pixels, dtype=np.int64).reshape(len(pixels), 2)
-        camera_rays = np.zeros((1, 6, 2))
+        camera_rays = np.zeros((1, 6, self.balls.parts))
         if self.rays.has_exact_camera:
             found = [self.rays.primary_ray(*pixel) for pixel in pixels]
-            camera_rays = _balls_of([number for ray in found for vector in ray for number in vector])
-            camera_rays = camera_rays.reshape(len(pixels), 6, 2)
+            camera_rays = _balls_of([number for ray in found for vector in ray for number in vector], self.balls)
+            camera_rays = camera_rays.reshape(len(pixels), 6, self.balls.parts)
         self.entries[name](state, self.data, self.frame, places, len(pixels), camera_rays, *results)
 
     def _limits(self, may_merge: bool) -> Limits:
@@ -100,13 +98,29 @@ class CompiledPixels:
         negligible, at_camera = evaluator.negligible_weight, bound.at_camera
         return Limits(1, negligible, radiance, growth, at_camera, int(may_merge), evaluator.most_work, radius)
 
+    def _colors_of(self, told: list[int], boxes: NDArray[np.float64]) -> FoundColors:
+        count, merged, spent = told
+        if count < 0:
+            return FoundColors(None, merged=False, spent=False)
+        found = [self._in_arb(three) for three in boxes[:count].tolist()]
+        return FoundColors([(red, green, blue) for red, green, blue in found], bool(merged), bool(spent))
 
-def serves(precision_bits: int) -> bool:
-    """Whether balls of two floats are as tight as Arb's in an arithmetic of this precision."""
-    return LEAST_PRECISION_BITS <= precision_bits <= MOST_PRECISION_BITS
+    def _hits_of(self, count: int, primitives: NDArray[np.int64], values: NDArray[np.float64]) -> list[FirstHit] | None:
+        if count < 0:
+            return None
+        return [
+            FirstHit(primitive, () if primitive == NOTHING else tuple(self._in_arb(seven)))
+            for primitive, seven in zip(primitives[:count].tolist(), values[:count].tolist(), strict=True)
+        ]
+
+    def _in_arb(self, numbers: list[list[float]]) -> list[Any]:
+        with ctx.workprec(4 * 53):  # more than two floats have
+            return [self.balls.to_arb(parts) for parts in numbers]
 
 
-def _constants(made: PixelProgram, rays: PlainRays) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def _constants(
+    made: PixelProgram, rays: PlainRays, balls: SetArithmetic
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """The numbers of the program's state, the lists of numbers behind them, and where these begin."""
     of_behaviour, bits = rays.behaviour.constants, rays.precision_bits
     with rays.prepared.arithmetic.in_force():
@@ -117,32 +131,10 @@ def _constants(made: PixelProgram, rays: PlainRays) -> tuple[NDArray[np.float64]
         for name in made.lists:
             starts.append(len(numbers))
             numbers.extend(of_behaviour[name])
-        return _balls_of(numbers), np.array([*starts, 0], dtype=np.int64)
+        return _balls_of(numbers, balls), np.array([*starts, 0], dtype=np.int64)
 
 
-def _balls_of(numbers: Sequence[Any]) -> NDArray[np.float64]:
-    """Float balls of Arb's, shape (n, 2); a row at least, so that there is an array."""
+def _balls_of(numbers: Sequence[Any], balls: SetArithmetic) -> NDArray[np.float64]:
+    """Balls of Arb's, a row of floats each; a row at least, so that there is an array."""
     with ctx.workprec(4 * 53):
-        return np.array([from_arb(number) for number in numbers] or [Ball(0.0, 0.0)])
-
-
-def _colors_of(told: list[int], boxes: NDArray[np.float64]) -> FoundColors:
-    count, merged, spent = told
-    if count < 0:
-        return FoundColors(None, False, False)
-    found = [_box(three) for three in boxes[:count].tolist()]
-    return FoundColors(found, bool(merged), bool(spent))
-
-
-def _hits_of(count: int, primitives: NDArray[np.int64], values: NDArray[np.float64]) -> list[FirstHit] | None:
-    if count < 0:
-        return None
-    return [
-        FirstHit(primitive, () if primitive < 0 else tuple(to_arb(Ball(*pair)) for pair in pairs))
-        for primitive, pairs in zip(primitives[:count].tolist(), values[:count].tolist(), strict=True)
-    ]
-
-
-def _box(balls: list[list[float]]) -> Box:
-    red, green, blue = (to_arb(Ball(*pair)) for pair in balls)
-    return red, green, blue
+        return np.array([balls.of_arb(number) for number in numbers] or [balls.arithmetic.number(0.0)])

@@ -6,7 +6,7 @@ from dataclasses import MISSING, fields, is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from raytruth.comparisons.error_models.shortcuts import has_shortcuts, without_shortcuts
-from raytruth.comparisons.feasible_sets.plain_pixels import PixelOutcomes
+from raytruth.comparisons.feasible_sets.pixel_outcomes import PixelOutcomes
 from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
 

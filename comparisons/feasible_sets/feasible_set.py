@@ -28,7 +28,7 @@ from raytruth.comparisons.feasible_sets.declared_outcomes import (
     proven,
     with_truth,
 )
-from raytruth.comparisons.feasible_sets.plain_pixels import PixelOutcomes, brightest_of
+from raytruth.comparisons.feasible_sets.pixel_outcomes import PixelOutcomes, brightest_of
 from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
 

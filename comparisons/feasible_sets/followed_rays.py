@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.feasible_sets.boxes import box_common, box_from_black, heaviest, is_below
+from raytruth.comparisons.feasible_sets.boxes import box_common, box_from_black, box_is_under, heaviest
 from raytruth.comparisons.feasible_sets.plain_rays import (
     box_of,
     forget_rays,
@@ -93,7 +93,7 @@ def is_negligible(node: int) -> bool:
     """Whether a ray does not deserve its own tree."""
     if state().limits.has_bound == 0:
         return False
-    return is_below(weight_of(node), state().limits.negligible)
+    return box_is_under(weight_of(node), state().limits.negligible)
 
 
 def give_up(spent: bool) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from raytruth.comparisons.feasible_sets.boxes import is_finite, pixel_center
+from raytruth.comparisons.feasible_sets.box_balls import exact_ball, is_finite, pixel_center
 from raytruth.comparisons.feasible_sets.feasible_pixel import MOST_OUTCOMES
 from raytruth.comparisons.feasible_sets.followed_rays import add_waiting, follow_tree
 from raytruth.comparisons.feasible_sets.plain_rays import box_of, forget_rays, keep_ray, kept_ray, known_number
@@ -30,7 +30,6 @@ from raytruth.comparisons.feasible_sets.tree_memory import (
     UNDECIDABLE,
     WAYS,
 )
-from raytruth.reference_tracer.arithmetics.float_balls import Ball
 from raytruth.reference_tracer.arithmetics.scripted_decisions import (
     HAS_LOST,
     MOST_WAYS,
@@ -159,7 +158,7 @@ def begin_tree(scene: SceneData) -> None:
     tree.nodes[0, DEPTH] = integer_of(scene, MAX_DEPTH, 0)
     tree.nodes[0, WAYS] = -1
     for channel in range(3):
-        tree.weights[0, channel] = Ball(1.0, 0.0)
+        tree.weights[0, channel] = exact_ball(1.0)
     tree.counts[NODES] = 1
     tree.counts[ALL_WAYS] = 0
     add_waiting(0, MOST_OUTCOMES)

@@ -10,14 +10,13 @@ import inspect
 from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from raytruth.comparisons.feasible_sets import followed_rays, pixel_entries, ray_sums
+from raytruth.comparisons.feasible_sets import boxes, followed_rays, pixel_entries, ray_sums
 from raytruth.comparisons.feasible_sets.counted_comparisons import COMPARISONS
 from raytruth.comparisons.feasible_sets.run_time_names import PI, is_short, with_run_time_names
-from raytruth.comparisons.feasible_sets.tree_memory import BALL, LIMITS_TYPE, TREE_TYPE
+from raytruth.comparisons.feasible_sets.tree_memory import LIMITS_TYPE, tree_type
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.arithmetics.compilation import scene_type
 from raytruth.reference_tracer.arithmetics.instantiation import kernel_source
-from raytruth.reference_tracer.arithmetics.rounded_float_balls import ROUNDED_FLOAT_BALLS
 from raytruth.reference_tracer.arithmetics.scripted_decisions import DECISIONS
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 from raytruth.reference_tracer.compiler.compilation import Program
@@ -27,6 +26,7 @@ from raytruth.reference_tracer.compiler.types import Array, Float, Integer, Tupl
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from raytruth.comparisons.feasible_sets.set_arithmetics import SetArithmetic
     from raytruth.comparisons.feasible_sets.tree_memory import Limits, Tree
     from raytruth.reference_tracer.arithmetics.behaviour import Function
     from raytruth.reference_tracer.arithmetics.scripted_decisions import ScriptedDecisions
@@ -40,7 +40,7 @@ ASKED = ("trace_ray", "nearest_hit", "is_occluded", "hit_point", "surface_normal
 """What the evaluator calls of the source."""
 AROUND = ("nearest_hit", "is_occluded")
 """What it puts functions of its own around."""
-EVALUATOR = (followed_rays, ray_sums, pixel_entries)
+EVALUATOR = (boxes, followed_rays, ray_sums, pixel_entries)
 
 
 class State(NamedTuple):
@@ -62,13 +62,6 @@ class State(NamedTuple):
     """How far away the camera ray meets the scene."""
 
 
-STATE = Tuple(
-    (Float(64), Array(BALL), INTEGERS, INTEGERS, DECISIONS, TREE_TYPE, LIMITS_TYPE, Array(BALL, 2), Array(BALL)),
-    State._fields,
-    State.__name__,
-)
-
-
 class PixelProgram(NamedTuple):
     """A program's entry points, and what it reads from its state by name."""
 
@@ -79,15 +72,17 @@ class PixelProgram(NamedTuple):
     """Those of the numbers that are literals of the source."""
 
 
-def pixel_program(behaviour: Behaviour) -> PixelProgram:
-    """The program for a behaviour, whatever its constants are. Raises NotCompilableError."""
+def pixel_program(behaviour: Behaviour, balls: SetArithmetic) -> PixelProgram:
+    """The program for a behaviour, whatever its constants are, in these balls. Raises NotCompilableError."""
     lists = tuple(name for name, value in behaviour.constants.items() if isinstance(value, list))
     numbers = tuple(behaviour.constants.keys() - set(lists))
-    return _pixel_program(tuple(sorted(behaviour.functions.items())), behaviour.helpers, tuple(sorted(numbers)), lists)
+    functions = tuple(sorted(behaviour.functions.items()))
+    return _pixel_program(balls, functions, behaviour.helpers, tuple(sorted(numbers)), lists)
 
 
 @cache
 def _pixel_program(
+    balls: SetArithmetic,
     functions: tuple[tuple[str, Function], ...],
     helpers: tuple[Function, ...],
     own: tuple[str, ...],
@@ -97,30 +92,38 @@ def _pixel_program(
     text, literals = kernel_source(None, behaviour, entry_points=ASKED, decided_comparisons=True)
     long = {name: value for name, value in literals.items() if not is_short(value)}
     numbers = (PI, *long, *own)
-    text = with_run_time_names(text, numbers, lists, AROUND)
-    whole = "\n".join([text, *map(inspect.getsource, EVALUATOR)])
-    names = {name: ROUNDED_FLOAT_BALLS.number(value) for name, value in literals.items() if name not in long}
-    names |= {**_evaluator_names(whole), **COMPARISONS, **ROUNDED_FLOAT_BALLS.functions, "state": state}
-    file = f"<evaluator in {ROUNDED_FLOAT_BALLS.name}>"
-    operations = ROUNDED_FLOAT_BALLS.operations
-    program = Program(whole, file, names, _entry_points(), operations, STACK_CAPACITY, STATE)
+    whole = "\n".join([with_run_time_names(text, numbers, lists, AROUND), *map(inspect.getsource, EVALUATOR)])
+    arithmetic = balls.arithmetic
+    names = {name: arithmetic.number(value) for name, value in literals.items() if name not in long}
+    names |= {**_evaluator_names(whole), **COMPARISONS, **arithmetic.functions, **balls.names, "state": state}
+    file = f"<evaluator in {arithmetic.name}>"
+    kinds = _entry_points(balls)
+    program = Program(whole, file, names, kinds, arithmetic.operations, STACK_CAPACITY, _state_type(balls.ball))
     return PixelProgram(program.compiled(), numbers, lists, long)
 
 
 def _evaluator_names(text: str) -> dict[str, Any]:
     """What the names in the evaluator's text stand for that the text does not define: functions, constants, classes."""
     nodes = list(ast.walk(ast.parse(text)))
+    names = [node for node in nodes if isinstance(node, ast.Name)]
     defined = {node.name for node in nodes if isinstance(node, ast.FunctionDef)}
-    defined |= {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
-    mentioned = {node.id for node in nodes if isinstance(node, ast.Name)} - defined - {"TYPE_CHECKING"}
+    defined |= {name.id for name in names if isinstance(name.ctx, ast.Store)}
+    mentioned = {name.id for name in names} - defined - {"TYPE_CHECKING"}
     known = {name: value for module in EVALUATOR for name, value in vars(module).items()}
     return {name: known[name] for name in sorted(mentioned & known.keys())}
 
 
-def _entry_points() -> dict[str, tuple[Type, ...]]:
-    vector = Tuple((BALL,) * 3)
-    start = (scene_type(ROUNDED_FLOAT_BALLS), Tuple((vector,) * 5), Array(INTEGER, 2), INTEGER, Array(BALL, 2))
+def _entry_points(balls: SetArithmetic) -> dict[str, tuple[Type, ...]]:
+    ball = balls.ball
+    frame = Tuple((Tuple((ball,) * 3),) * 5)
+    start = (scene_type(balls.arithmetic), frame, Array(INTEGER, 2), INTEGER, Array(ball, 2))
     return {
-        "color_pixels": (*start, Array(BALL, 3), Array(INTEGER, 2)),
-        "hit_pixels": (*start, Array(INTEGER, 2), Array(BALL, 3), INTEGERS),
+        "color_pixels": (*start, Array(ball, 3), Array(INTEGER, 2)),
+        "hit_pixels": (*start, Array(INTEGER, 2), Array(ball, 3), INTEGERS),
     }
+
+
+def _state_type(ball: Type) -> Tuple:
+    numbers = Array(ball)
+    kinds = (Float(64), numbers, INTEGERS, INTEGERS, DECISIONS, tree_type(ball), LIMITS_TYPE, Array(ball, 2), numbers)
+    return Tuple(kinds, State._fields, State.__name__)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.feasible_sets.compiled_pixels import CompiledPixels, serves
+from raytruth.comparisons.feasible_sets.compiled_pixels import CompiledPixels
 from raytruth.comparisons.feasible_sets.feasible_pixel import PixelEvaluator, UndecidableError
 from raytruth.comparisons.feasible_sets.rounded_rays import PlainRays
+from raytruth.comparisons.feasible_sets.set_arithmetics import set_arithmetic
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
 
 if TYPE_CHECKING:
@@ -55,14 +55,16 @@ class PlainPixels:
         self._rays = PlainRays(scene, error_model, behaviour)
         self._in_arb = PixelEvaluator(self._rays, bound, output_bits, most_work)
         # A behaviour besides is that of a faulty tracer, of which there are many, each asked for a few pixels.
-        self._may_compile = behaviour is IDEAL and serves(error_model.precision_bits)
+        self._compiled: CompiledPixels | None = None
+        self._balls = set_arithmetic(error_model.precision_bits) if behaviour is IDEAL else None
 
     def colors(self, pixels: Sequence[Pixel], *, may_merge: bool) -> list[Colors | None]:
         """The feasible colours of each pixel; None where nothing can be said."""
-        if not self._compiles(len(pixels)):
+        compiled = self._compiled_for(len(pixels))
+        if compiled is None:
             return [colors_in_arb(self._in_arb, pixel, may_merge=may_merge) for pixel in pixels]
         found: list[Colors | None] = []
-        for pixel, color in zip(pixels, self._compiled.colors(pixels, may_merge=may_merge), strict=True):
+        for pixel, color in zip(pixels, compiled.colors(pixels, may_merge=may_merge), strict=True):
             if color.boxes is None:
                 found.append(colors_in_arb(self._in_arb, pixel, may_merge=may_merge))
             else:
@@ -71,17 +73,17 @@ class PlainPixels:
 
     def first_hits(self, pixels: Sequence[Pixel]) -> list[list[FirstHit] | None]:
         """What each pixel's ray may meet first; None where nothing can be said."""
-        if not self._compiles(len(pixels)):
+        compiled = self._compiled_for(len(pixels))
+        if compiled is None:
             return [first_hits_in_arb(self._in_arb, pixel) for pixel in pixels]
-        found = zip(pixels, self._compiled.first_hits(pixels), strict=True)
+        found = zip(pixels, compiled.first_hits(pixels), strict=True)
         return [first_hits_in_arb(self._in_arb, pixel) if hits is None else hits or None for pixel, hits in found]
 
-    def _compiles(self, pixels: int) -> bool:
-        return self._may_compile and (pixels >= FEW_PIXELS or "_compiled" in vars(self))
-
-    @cached_property
-    def _compiled(self) -> CompiledPixels:
-        return CompiledPixels(self._in_arb, self._rays)
+    def _compiled_for(self, pixels: int) -> CompiledPixels | None:
+        """The compiled evaluator, if it is there or is worth its while for so many pixels."""
+        if self._compiled is None and self._balls is not None and pixels >= FEW_PIXELS:
+            self._compiled = CompiledPixels(self._in_arb, self._rays, self._balls)
+        return self._compiled
 
 
 def colors_in_arb(evaluator: PixelEvaluator, pixel: Pixel, *, may_merge: bool = True) -> Colors | None:

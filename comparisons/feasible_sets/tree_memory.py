@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from raytruth.comparisons.feasible_sets.feasible_pixel import MOST_OUTCOMES
-from raytruth.reference_tracer.arithmetics.float_balls import Ball
 from raytruth.reference_tracer.compiler.types import Array, Float, Integer, Tuple
 
 if TYPE_CHECKING:
+    from raytruth.reference_tracer.compiler.types import Type
     from raytruth.reference_tracer.source.numbers import Table
 
 # A kilobyte each. Where a tree needs more of them, Arb evaluates the pixel: none of the library's does.
@@ -28,8 +28,6 @@ FIRST_CHILD, CHILDREN = range(2)
 # Places of `counts`.
 NODES, ALL_WAYS, WAITING, MERGED, SPENT, UNDECIDABLE, IS_FULL, RAYS, IS_REMEMBERED, REMEMBERED = range(10)
 NUMBER_OF_COUNTS = 10
-
-BALL = Tuple((Float(64), Float(64)), Ball._fields, Ball.__name__)
 
 
 class Tree(NamedTuple):
@@ -70,20 +68,6 @@ class Limits(NamedTuple):
     image_radius: float
 
 
-TREE_TYPE = Tuple(
-    (
-        Array(Integer(), 2),
-        Array(BALL, 2),
-        Array(BALL, 3),
-        Array(Integer(), 2),
-        Array(BALL, 2),
-        Array(Integer()),
-        Array(BALL, 2),
-        Array(Integer()),
-    ),
-    Tree._fields,
-    Tree.__name__,
-)
 LIMITS_TYPE = Tuple(
     (Integer(), Float(64), Float(64), Float(64), Float(64), Integer(), Integer(), Float(64)),
     Limits._fields,
@@ -95,23 +79,26 @@ ALL_SUMS = 2 * MOST_OUTCOMES
 MOST_SUMS = ALL_SUMS + MOST_OUTCOMES * MOST_OUTCOMES
 
 
-def tree_memory() -> Tree:
-    """Room for a pixel's tree."""
+def tree_type(ball: Type) -> Tuple:
+    """The type of a tree whose boxes are made of such balls."""
+    wholes, boxes = Array(Integer(), 2), Array(ball, 2)
+    kinds = (wholes, boxes, Array(ball, 3), wholes, boxes, Array(Integer()), boxes, Array(Integer()))
+    return Tuple(kinds, Tree._fields, Tree.__name__)
+
+
+def tree_memory(parts: int) -> Tree:
+    """Room for a pixel's tree, whose balls are so many floats each."""
     return Tree(
         nodes=_wholes(MOST_NODES, 8),
-        weights=_balls(MOST_NODES, 3),
-        boxes=_balls(MOST_NODES, MOST_OUTCOMES, 3),
+        weights=np.zeros((MOST_NODES, 3, parts)),
+        boxes=np.zeros((MOST_NODES, MOST_OUTCOMES, 3, parts)),
         ways=_wholes(MOST_WAYS_OF_ALL, 2),
-        local=_balls(MOST_WAYS_OF_ALL, 3),
+        local=np.zeros((MOST_WAYS_OF_ALL, 3, parts)),
         waiting=_wholes(MOST_NODES),
-        sums=_balls(MOST_SUMS, 3),
+        sums=np.zeros((MOST_SUMS, 3, parts)),
         counts=_wholes(NUMBER_OF_COUNTS),
     )
 
 
 def _wholes(*shape: int) -> Any:
     return np.zeros(shape, dtype=np.int64)
-
-
-def _balls(*shape: int) -> Any:
-    return np.zeros((*shape, 2))
