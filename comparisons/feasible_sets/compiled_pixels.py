@@ -18,15 +18,17 @@ from raytruth.reference_tracer.source.traversal import NOTHING
 from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
     from raytruth.comparisons.feasible_sets.feasible_pixel import PixelEvaluator
     from raytruth.comparisons.feasible_sets.pixel_program import PixelProgram
-    from raytruth.comparisons.feasible_sets.rounded_rays import Box, PlainRays
+    from raytruth.comparisons.feasible_sets.rounded_rays import Box, Pixel, PlainRays
     from raytruth.comparisons.feasible_sets.set_arithmetics import SetArithmetic
 
+# Of pixels: what is found of them takes some ten megabytes, and Python hears of an interruption in between.
+BATCH = 2**10
 SEVEN = 7
 """Numbers of a first hit: distance, position, normal."""
 
@@ -64,27 +66,34 @@ class CompiledPixels:
         )
         self.evaluator = evaluator
 
-    def colors(self, pixels: Sequence[tuple[int, int]], *, may_merge: bool) -> list[FoundColors]:
+    def colors(self, pixels: Sequence[Pixel], *, may_merge: bool) -> list[FoundColors]:
         """The feasible colours of each pixel, a column and a row."""
-        boxes = np.zeros((len(pixels), MOST_OUTCOMES, 3, self.balls.parts))
-        told = np.zeros((len(pixels), 3), dtype=np.int64)
-        self._call("color_pixels", pixels, may_merge, boxes, told)
-        return [self._colors_of(*both) for both in zip(told.tolist(), boxes, strict=True)]
+        found: list[FoundColors] = []
+        for batch in _batches(pixels):
+            boxes = np.zeros((len(batch), MOST_OUTCOMES, 3, self.balls.parts))
+            told = np.zeros((len(batch), 3), dtype=np.int64)
+            self._call("color_pixels", batch, may_merge, boxes, told)
+            found.extend(self._colors_of(*both) for both in zip(told.tolist(), boxes, strict=True))
+        return found
 
-    def first_hits(self, pixels: Sequence[tuple[int, int]]) -> list[list[FirstHit] | None]:
+    def first_hits(self, pixels: Sequence[Pixel]) -> list[list[FirstHit] | None]:
         """What each pixel's ray may meet first; empty where nothing can be said, None where there was no room."""
-        primitives = np.zeros((len(pixels), MOST_OUTCOMES), dtype=np.int64)
-        values = np.zeros((len(pixels), MOST_OUTCOMES, SEVEN, self.balls.parts))
-        told = np.zeros(len(pixels), dtype=np.int64)
-        self._call("hit_pixels", pixels, True, primitives, values, told)
-        return [self._hits_of(*each) for each in zip(told.tolist(), primitives, values, strict=True)]
+        found: list[list[FirstHit] | None] = []
+        for batch in _batches(pixels):
+            primitives = np.zeros((len(batch), MOST_OUTCOMES), dtype=np.int64)
+            values = np.zeros((len(batch), MOST_OUTCOMES, SEVEN, self.balls.parts))
+            told = np.zeros(len(batch), dtype=np.int64)
+            self._call("hit_pixels", batch, True, primitives, values, told)
+            found.extend(self._hits_of(*each) for each in zip(told.tolist(), primitives, values, strict=True))
+        return found
 
-    def _call(self, name: str, pixels: Sequence[tuple[int, int]], may_merge: bool, *results: Any) -> None:
+    def _call(self, name: str, pixels: Sequence[Pixel], may_merge: bool, *results: Any) -> None:
         state = State(*self.shared, self.decisions, self.tree, self._limits(may_merge), self.kept_rays, self.remembered)
         places = np.array(pixels, dtype=np.int64).reshape(len(pixels), 2)
         camera_rays = np.zeros((1, 6, self.balls.parts))
         if self.rays.has_exact_camera:
-            found = [self.rays.primary_ray(*pixel) for pixel in pixels]
+            with self.rays.prepared.arithmetic.in_force():
+                found = [self.rays.primary_ray(*pixel) for pixel in pixels]
             camera_rays = _balls_of([number for ray in found for vector in ray for number in vector], self.balls)
             camera_rays = camera_rays.reshape(len(pixels), 6, self.balls.parts)
         self.entries[name](state, self.data, self.frame, places, len(pixels), camera_rays, *results)
@@ -116,6 +125,10 @@ class CompiledPixels:
     def _in_arb(self, numbers: list[list[float]]) -> list[Any]:
         with ctx.workprec(4 * 53):  # more than two floats have
             return [self.balls.to_arb(parts) for parts in numbers]
+
+
+def _batches(pixels: Sequence[Pixel]) -> Iterator[Sequence[Pixel]]:
+    return (pixels[first : first + BATCH] for first in range(0, len(pixels), BATCH))
 
 
 def _constants(

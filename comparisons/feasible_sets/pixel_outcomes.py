@@ -6,7 +6,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.feasible_sets.feasible_pixel import PixelEvaluator, widest
-from raytruth.comparisons.feasible_sets.plain_pixels import Colors, Pixel, PlainPixels, colors_in_arb, first_hits_in_arb
+from raytruth.comparisons.feasible_sets.plain_pixels import Colors, PlainPixels, colors_in_arb, first_hits_in_arb
 from raytruth.comparisons.feasible_sets.rounded_rays import LinkedRays
 
 if TYPE_CHECKING:
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.feasible_sets.feasible_pixel import FirstHit
     from raytruth.comparisons.feasible_sets.radiance_bound import RadianceBound
+    from raytruth.comparisons.feasible_sets.rounded_rays import Pixel
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.scenes.scene import Scene
 

@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 
     NearestHit = Callable[[SceneData, Any, Any, int], tuple[Any, int]]
 
+Pixel = tuple[int, int]
+"""Column and row."""
 Box = tuple[Any, Any, Any]
 """A ball for each channel."""
 Ray = tuple[Any, ...]

@@ -1,4 +1,4 @@
-"""The arithmetic of rounded_float_balls.py in double-double balls: for error models of nearly a float's own precision."""
+"""The arithmetic of rounded_float_balls.py in double-double balls, for error models of nearly a float's precision."""
 
 from __future__ import annotations
 
