@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from raytruth.reference_tracer.arithmetics import linked_steps, linked_tape, linked_tape_rows, scripted_decisions
@@ -12,14 +13,16 @@ from raytruth.reference_tracer.arithmetics.linked_tape_memory import BALL, tape_
 from raytruth.reference_tracer.arithmetics.scripted_decisions import DECISIONS, ScriptedDecisions
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 from raytruth.reference_tracer.compiler.compilation import Program
+from raytruth.reference_tracer.compiler.names import NotCompilableError
 from raytruth.reference_tracer.compiler.types import Array, Float, Integer, Tuple
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping
+    from collections.abc import Collection, Mapping
 
     from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
     from raytruth.reference_tracer.arithmetics.linked_tape import LinkedTape
     from raytruth.reference_tracer.arithmetics.linked_tape_arithmetic import TapeConstants
+    from raytruth.reference_tracer.compiler.loading import LoadedFunction
     from raytruth.reference_tracer.compiler.types import Type
 
 INTEGER, INTEGERS = Integer(), Array(Integer())
@@ -53,8 +56,8 @@ NAMES: dict[str, Any] = {
     function.__name__: function
     for function in (
         linked_tape.box_of,
-        linked_tape.linked_number,
-        linked_tape_rows.begin_anew,
+        linked_tape.number_of_ball,
+        linked_tape_rows.reset,
         linked_tape_rows.begin_with,
         linked_tape_rows.forget_numbers,
         linked_tape_rows.forget_rays,
@@ -63,7 +66,7 @@ NAMES: dict[str, Any] = {
         linked_tape_rows.kept_number,
         linked_tape_rows.kept_ray,
         linked_tape_rows.numbers_made,
-        linked_tape_rows.with_own_error,
+        linked_tape_rows.hit_with_error,
         scripted_decisions.next_answer,
         scripted_decisions.next_way,
         scripted_decisions.paused,
@@ -76,12 +79,15 @@ STACK_CAPACITY = 1 + linked_steps.MOST_CHILDREN
 
 def linked_program(
     features: Collection[str], behaviour: Behaviour, arithmetic: Arithmetic, constants: TapeConstants
-) -> Mapping[str, Callable[..., None]]:
+) -> Mapping[str, LoadedFunction]:
     """The functions of linked_steps.py, compiled for scenes with these features.
 
     Raises NotCompilableError for a behaviour that the compiler does not know.
     """
-    plain = Behaviour({**PLAIN_FORMS, **behaviour.functions}, behaviour.helpers, behaviour.constants, behaviour.name)
+    lists = [name for name, value in behaviour.constants.items() if isinstance(value, list)]
+    if lists:
+        raise NotCompilableError(f"{behaviour.name} has a list of numbers: {lists[0]}")
+    plain = replace(behaviour, functions={**PLAIN_FORMS, **behaviour.functions})
     kinds = _entry_points(arithmetic)
     source, literals = kernel_source(features, merged(plain, STEPS), entry_points=tuple(kinds))
     names = {
@@ -100,7 +106,7 @@ def _entry_points(arithmetic: Arithmetic) -> dict[str, tuple[Type, ...]]:
     scene, weight = scene_type(arithmetic), Tuple((BALL,) * 3)
     return {
         "kept_frame": (scene,),
-        "kept_primary_ray": (BALL, BALL, INTEGERS),
-        "followed_ray": (scene, INTEGER, weight, INTEGER, INTEGER, INTEGER, Array(BALL, 2), Array(INTEGER, 2)),
-        "first_hit": (scene, INTEGER, Array(BALL), INTEGERS),
+        "kept_primary_ray": (INTEGERS, BALL, BALL),
+        "followed_ray": (scene, Array(BALL, 2), Array(INTEGER, 2), INTEGER, weight, INTEGER, INTEGER, INTEGER),
+        "first_hit": (scene, Array(BALL), INTEGERS, INTEGER),
     }

@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.feasible_sets.feasible_pixel import PixelEvaluator, widest
-from raytruth.comparisons.feasible_sets.plain_pixels import Colors, PlainPixels, colors_in_arb, first_hits_in_arb
-from raytruth.comparisons.feasible_sets.rounded_rays import LinkedRays
+from raytruth.comparisons.feasible_sets.feasible_pixel import widest
+from raytruth.comparisons.feasible_sets.linked_pixels import LinkedPixels
+from raytruth.comparisons.feasible_sets.plain_pixels import Colors, PlainPixels, colors_of, first_hits_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,9 +26,6 @@ FLOAT32_BITS = 24
 # balls count takes 2 to 4 µs, and a pixel is evaluated in them twice at most: 2 · 2^12 · 2.7 µs = 22 ms. The library
 # needs 3,600 at most.
 PLAIN_WORK = 2**12
-# What linked balls count takes 0.5 to 1.2 µs, mostly 0.8: 2^16 · 0.8 µs = 52 ms a pixel, shared by those that need it.
-# The library needs 87 % of such a share at most, and 76 % but for one pixel.
-LINKED_WORK = 2**16
 
 
 class PixelOutcomes:
@@ -43,12 +40,10 @@ class PixelOutcomes:
         share: float = 1.0,
     ) -> None:
         self._model, self._model_of_light = error_model, error_model.of_light()
-        self._linked_work = int(LINKED_WORK * scene.camera.width * scene.camera.height * share)
+        self._linked_share = scene.camera.width * scene.camera.height * share
         # Made only where they are needed; often the error model is that of light, too.
         self._plain = cache(lambda model: PlainPixels(scene, model, behaviour, bound, FLOAT32_BITS, PLAIN_WORK))
-        self._linked = cache(
-            lambda model: PixelEvaluator(LinkedRays(scene, model, behaviour), bound, FLOAT32_BITS, LINKED_WORK)
-        )
+        self._linked = cache(lambda model: LinkedPixels(scene, model, behaviour, bound, FLOAT32_BITS))
 
     def colors_and_hits(
         self, pixels: Sequence[Pixel], *, with_colors: bool = True, with_hits: bool = True, brightest: float = 0.0
@@ -67,7 +62,7 @@ class PixelOutcomes:
         if with_hits:
             hits = self._plain(self._model).first_hits(pixels)
             for place in [place for place, hit in enumerate(hits) if hit is None]:
-                hits[place] = first_hits_in_arb(self._linked(self._model), pixels[place])
+                hits[place] = first_hits_of(self._linked(self._model), pixels[place])
         return colors, hits
 
     def _sharpen(self, pixels: Sequence[Pixel], colors: list[Colors | None], brightest: float) -> None:
@@ -77,16 +72,17 @@ class PixelOutcomes:
         if not unclear and not wide:
             return
         linked = self._linked(model)
-        linked.most_work = self._linked_work // len([*unclear, *wide])
+        linked.expect(len([*unclear, *wide]))
+        linked.share = self._linked_share / len([*unclear, *wide])
         for place in unclear:
             pixel = pixels[place]
-            colors[place] = colors_in_arb(linked, pixel)
+            colors[place] = colors_of(linked, pixel)
             if colors[place] is None and not linked.spent:
                 (colors[place],) = self._plain(model).colors([pixel], may_merge=True)
         for place in sorted(
             set(_loose(colors, brightest, model)) - set(unclear)
         ):  # fewer, now that the brightest is known
-            colors[place] = _sharper(colors_in_arb(linked, pixels[place]), colors[place])
+            colors[place] = _sharper(colors_of(linked, pixels[place]), colors[place])
 
 
 def _loose(colors: Sequence[Colors | None], brightest: float, model: ErrorModel) -> list[int]:

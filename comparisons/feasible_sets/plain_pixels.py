@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from raytruth.comparisons.feasible_sets.compiled_pixels import CompiledPixels
 from raytruth.comparisons.feasible_sets.feasible_pixel import PixelEvaluator, UndecidableError
@@ -60,11 +60,11 @@ class PlainPixels:
         """The feasible colours of each pixel; None where nothing can be said."""
         compiled = self._compiled_for(len(pixels))
         if compiled is None:
-            return [colors_in_arb(self._in_arb, pixel, may_merge=may_merge) for pixel in pixels]
+            return [colors_of(self._in_arb, pixel, may_merge=may_merge) for pixel in pixels]
         found: list[Colors | None] = []
         for pixel, color in zip(pixels, compiled.colors(pixels, may_merge=may_merge), strict=True):
             if color.boxes is None:
-                found.append(colors_in_arb(self._in_arb, pixel, may_merge=may_merge))
+                found.append(colors_of(self._in_arb, pixel, may_merge=may_merge))
             else:
                 found.append(Colors(color.boxes, color.merged, color.spent) if color.boxes else None)
         return found
@@ -73,9 +73,9 @@ class PlainPixels:
         """What each pixel's ray may meet first; None where nothing can be said."""
         compiled = self._compiled_for(len(pixels))
         if compiled is None:
-            return [first_hits_in_arb(self._in_arb, pixel) for pixel in pixels]
+            return [first_hits_of(self._in_arb, pixel) for pixel in pixels]
         found = zip(pixels, compiled.first_hits(pixels), strict=True)
-        return [first_hits_in_arb(self._in_arb, pixel) if hits is None else hits or None for pixel, hits in found]
+        return [first_hits_of(self._in_arb, pixel) if hits is None else hits or None for pixel, hits in found]
 
     def _compiled_for(self, pixels: int) -> CompiledPixels | None:
         """The compiled evaluator, if it is there or is worth its while for so many pixels."""
@@ -87,7 +87,19 @@ class PlainPixels:
         return self._compiled
 
 
-def colors_in_arb(evaluator: PixelEvaluator, pixel: Pixel, *, may_merge: bool = True) -> Colors | None:
+class Evaluator(Protocol):
+    """Who evaluates pixels one by one, as PixelEvaluator does."""
+
+    spent: bool
+
+    def colors(self, column: int, row: int, *, may_merge: bool = True) -> tuple[list[Box], bool]:
+        """The boxes of a pixel's feasible colours, and whether they are merged. Raises UndecidableError."""
+
+    def first_hits(self, column: int, row: int) -> list[FirstHit]:
+        """What the pixel's ray may meet first. Raises UndecidableError."""
+
+
+def colors_of(evaluator: Evaluator, pixel: Pixel, *, may_merge: bool = True) -> Colors | None:
     """The feasible colours of a pixel; None where nothing can be said."""
     try:
         return Colors(*evaluator.colors(*pixel, may_merge=may_merge), evaluator.spent)
@@ -95,7 +107,7 @@ def colors_in_arb(evaluator: PixelEvaluator, pixel: Pixel, *, may_merge: bool = 
         return None
 
 
-def first_hits_in_arb(evaluator: PixelEvaluator, pixel: Pixel) -> list[FirstHit] | None:
+def first_hits_of(evaluator: Evaluator, pixel: Pixel) -> list[FirstHit] | None:
     """What a pixel's ray may meet first; None where nothing can be said."""
     try:
         return evaluator.first_hits(*pixel)

@@ -58,7 +58,7 @@ class TapeRays:
         features = required_features(scene)
         with arithmetic.in_force():
             all_of_it = merged(behaviour_of(error_model, scene), behaviour)
-            self._calls = linked_program(features, all_of_it, arithmetic, constants)
+            program = linked_program(features, all_of_it, arithmetic, constants)
             data = build_tables(scene, features, arithmetic)
             self.prepared = PreparedScene(scene, arithmetic, cast("Kernel", Namespace({})), data)
             for place, value in rounded_indices(scene, data, error_model.index_bits):
@@ -68,19 +68,26 @@ class TapeRays:
         self._hit = np.zeros((7, 2))
         self._boxes = np.zeros((1 + MOST_CHILDREN, 3, 2))
         self._children = np.zeros((1 + MOST_CHILDREN, 4), dtype=np.int64)
-        self._call("kept_frame", data)
+        given = {
+            "kept_frame": (data,),
+            "kept_primary_ray": (self._found,),
+            "followed_ray": (data, self._boxes, self._children),
+            "first_hit": (data, self._hit, self._found),
+        }
+        self._calls = {name: program[name].bound(self._state, *first) for name, first in given.items()}
+        self._call("kept_frame")
 
     def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
         """Through the centre of a pixel or near it, as the error model says; forgets all other rays."""
         x, y = (from_arb(arb(center + 0.5, self._image_radius)) for center in (column, row))
-        self._call("kept_primary_ray", x, y, self._found)
+        self._call("kept_primary_ray", x, y)
         return int(self._found[0]), None
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
         """What a ray brings by itself, as balls, and the rays that go on from its end."""
         kept, _, weight, *rest = ray
         weights = tuple(map(from_arb, weight))
-        self._call("followed_ray", self.prepared.data, kept, weights, *rest, self._boxes, self._children)
+        self._call("followed_ray", kept, weights, *rest)
         boxes = [_box(three) for three in self._boxes[: 1 + self._children[0, 0]].tolist()]
         children = self._children[1 : len(boxes)].tolist()
         return boxes[0], [(kept, None, box, *rest) for box, (kept, *rest) in zip(boxes[1:], children, strict=True)]
@@ -91,7 +98,7 @@ class TapeRays:
 
     def first_hit(self, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:  # noqa: ARG002 - where it is kept is said by the origin
         """The primitive that a primary ray meets (-1: none), and balls for distance, position and normal."""
-        self._call("first_hit", self.prepared.data, origin, self._hit, self._found)
+        self._call("first_hit", origin)
         primitive = int(self._found[0])
         return primitive, () if primitive == NOTHING else tuple(to_arb(Ball(*pair)) for pair in self._hit.tolist())
 
@@ -101,7 +108,7 @@ class TapeRays:
         script = self.decisions.answers
         answers[: len(script)] = script
         counts[POSITION], counts[RECORDED] = 0, len(script)
-        self._calls[name](self._state, *arguments)
+        self._calls[name](*arguments)
         self.decisions.answers = [answer == 1 for answer in answers[: counts[RECORDED]].tolist()]
         self.decisions.position = int(counts[POSITION])
         if self._state.tape.counts[IS_FULL] or counts[HAS_LOST]:

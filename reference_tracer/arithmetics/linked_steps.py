@@ -8,18 +8,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from raytruth.reference_tracer.arithmetics.linked_tape import box_of, linked_number
+from raytruth.reference_tracer.arithmetics.linked_tape import box_of, number_of_ball
 from raytruth.reference_tracer.arithmetics.linked_tape_rows import (
-    begin_anew,
     begin_with,
     forget_numbers,
     forget_rays,
+    hit_with_error,
     keep_number,
     keep_ray,
     kept_number,
     kept_ray,
     numbers_made,
-    with_own_error,
+    reset,
 )
 from raytruth.reference_tracer.arithmetics.scripted_decisions import (
     MOST_WAYS,
@@ -30,11 +30,9 @@ from raytruth.reference_tracer.arithmetics.scripted_decisions import (
 )
 from raytruth.reference_tracer.source.camera import camera_frame, primary_ray
 from raytruth.reference_tracer.source.ray_tree import hit_point, trace_ray
-from raytruth.reference_tracer.source.traversal import NOTHING, nearest_hit, surface_normal
+from raytruth.reference_tracer.source.traversal import NOTHING, is_occluded, nearest_hit, surface_normal
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from raytruth.reference_tracer.source.numbers import Scalar, Table, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
 
@@ -43,13 +41,13 @@ FRAME_ROWS = 15
 MOST_CHILDREN = 3
 """A mirror's, and two of a dielectric (source/ray_tree.py)."""
 
-inner_nearest_hit: Callable[..., Any]
-inner_is_occluded: Callable[..., Any]
+# In the kernel these are what the functions below are put around.
+inner_nearest_hit, inner_is_occluded = nearest_hit, is_occluded
 
 
 def kept_frame(scene: SceneData) -> None:
     """Keep what the camera's rays share."""
-    begin_anew()
+    reset()
     forget_rays(0)
     frame = camera_frame(scene)
     for vector in range(5):
@@ -62,17 +60,18 @@ def kept_vector(row: int) -> Vector:
     return kept_number(row), kept_number(row + 1), kept_number(row + 2)
 
 
-def kept_primary_ray(x: Any, y: Any, found: Table) -> None:
+def kept_primary_ray(found: Table, x: Any, y: Any) -> None:
     """Keep the ray through a point of the image, of which two balls are known; give its row. It is the only one."""
+    reset()
     forget_rays(FRAME_ROWS)
     begin_with(0)
     frame = (kept_vector(0), kept_vector(3), kept_vector(6), kept_vector(9), kept_vector(12))
-    origin, direction = primary_ray(frame, linked_number(x), linked_number(y))
+    origin, direction = primary_ray(frame, number_of_ball(x), number_of_ball(y))
     found[0] = keep_ray(origin, direction)
 
 
 def followed_ray(
-    scene: SceneData, row: int, weight: Any, left: int, medium: int, depth: int, boxes: Table, children: Table
+    scene: SceneData, boxes: Table, children: Table, row: int, weight: Any, left: int, medium: int, depth: int
 ) -> None:
     """Trace a kept ray whose weight is three balls.
 
@@ -80,7 +79,7 @@ def followed_ray(
     `children` gets for each of these its row, what it left, its medium and its depth, and before them their number.
     """
     origin, direction = kept_ray(row)
-    linked = (linked_number(weight[0]), linked_number(weight[1]), linked_number(weight[2]))
+    linked = (number_of_ball(weight[0]), number_of_ball(weight[1]), number_of_ball(weight[2]))
     waiting = [(origin, direction, linked, left, medium, depth)]
     local = trace_ray(scene, waiting.pop(), waiting)
     for channel in range(3):
@@ -97,7 +96,7 @@ def followed_ray(
         children[place, 3] = depth
 
 
-def first_hit(scene: SceneData, row: int, boxes: Table, found: Table) -> None:
+def first_hit(scene: SceneData, boxes: Table, found: Table, row: int) -> None:
     """What a kept ray meets: the primitive, and boxes of distance, position and normal."""
     origin, direction = kept_ray(row)
     distance, primitive = nearest_hit(scene, origin, direction, NOTHING)
@@ -119,7 +118,7 @@ def nearest_hit_with_error(scene: SceneData, origin: Vector, direction: Vector, 
     """
     distance, primitive = inner_nearest_hit(scene, origin, direction, left)
     if primitive != NOTHING:
-        distance = with_own_error(distance)
+        distance = hit_with_error(distance)
     return distance, primitive
 
 

@@ -21,6 +21,7 @@ from raytruth.reference_tracer.arithmetics.float_balls import (
     LARGEST,
     OUTWARD,
     UNDERFLOW,
+    UNIT_ROUNDOFF,
     Ball,
     add,
     hull,
@@ -145,7 +146,7 @@ def rounded(center: Ball, exact: Ball, first: Link, second: Link) -> LinkedNumbe
     return made(center, rounded_ball(exact, roundoff), error, first, second)
 
 
-def linked_number(ball: Ball) -> LinkedNumber:
+def number_of_ball(ball: Ball) -> LinkedNumber:
     """A number of which only this is known: anything in the ball."""
     return made(Ball(ball.middle, 0.0), ball, ball.radius, NO_LINK, NO_LINK)
 
@@ -216,14 +217,23 @@ def _through(place: int, derivative: Ball) -> float:
 
 
 def _through_row(row: int, derivative: Ball) -> None:
-    """From the derivative by a number that is linear in symbols to those by the symbols."""
+    """From the derivative by a number that is linear in symbols to those by the symbols.
+
+    That is `add` and `mul` of float_balls.py for a factor without a radius, with one bound for both roundings, since
+    most of the time goes by here: what is not finite comes out as not finite, too.
+    """
     tape = state().tape
     start, width = tape.row_starts[row], tape.row_widths[row]
     tape.counts[WORK] = tape.counts[WORK] + width
     for symbol in range(width):
         slope = tape.row_slopes[start + symbol]
         if slope != 0.0:
-            tape.by_symbol[symbol] = add(tape.by_symbol[symbol], mul(derivative, Ball(slope, 0.0), 0.0), 0.0)
+            known = tape.by_symbol[symbol]
+            product = derivative.middle * slope
+            total = known.middle + product
+            lost = UNIT_ROUNDOFF * (abs(product) + abs(total))
+            radius = known.radius + derivative.radius * abs(slope) + lost
+            tape.by_symbol[symbol] = Ball(total, radius * OUTWARD + UNDERFLOW)
 
 
 def _through_constants() -> float:

@@ -12,7 +12,7 @@ from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
 from raytruth.reference_tracer.arithmetics.balls import MARGIN_BITS
 from raytruth.reference_tracer.arithmetics.float_ball_conversions import from_arb, stored
 from raytruth.reference_tracer.arithmetics.float_balls import Ball
-from raytruth.reference_tracer.arithmetics.linked_tape import LinkedNumber, linked_number
+from raytruth.reference_tracer.arithmetics.linked_tape import LinkedNumber, number_of_ball
 from raytruth.reference_tracer.arithmetics.scripted_decisions import decided, next_answer
 
 
@@ -80,7 +80,7 @@ def linked_tape_arithmetic(constants: TapeConstants) -> Arithmetic:
 
 def number_of_integer(value: int) -> LinkedNumber:
     """The number itself: whole numbers in kernels count pixels, and are floats."""
-    return linked_number(Ball(float(value), 0.0))
+    return number_of_ball(Ball(float(value), 0.0))
 
 
 def is_less(a: LinkedNumber, b: LinkedNumber) -> bool:

@@ -161,6 +161,8 @@ def _slope_of_power(base: Ball, exponent: Ball, power: Ball) -> Ball:
     if lower(base) > 0.0:
         if lower(less) >= 0.0:
             return balls.mul(exponent, functions.power(base, less, 0.0), 0.0)
+        if upper(less) <= 0.0:
+            return balls.truediv(exponent, functions.power(base, balls.neg(less), 0.0), 0.0)
         return balls.truediv(balls.mul(exponent, power, 0.0), base, 0.0)
     if upper(base) <= 0.0:
         return ZERO

@@ -65,11 +65,18 @@ def begin_with(first: int) -> None:
     tape.counts[SYMBOLS] = tape.row_widths[first]
 
 
-def begin_anew() -> None:
-    """Forget all numbers but the constants, and all symbols."""
+def rays_kept() -> int:
+    """What `forget_rays` is to be given to forget all rays that are kept from now on."""
+    count: int = state().tape.counts[ROWS]
+    return count
+
+
+def reset() -> None:
+    """Forget all numbers but the constants, and all symbols; what was full is not any more."""
     tape = state().tape
     forget_numbers(tape.capacity.constants)
     tape.counts[SYMBOLS] = 0
+    tape.counts[IS_FULL] = 0
 
 
 def numbers_made() -> int:
@@ -89,10 +96,9 @@ def forget_rays(first: int) -> None:
     if first < tape.counts[ROWS]:
         tape.counts[ROWS] = first
         tape.counts[ROW_SLOPES] = tape.row_starts[first]
-    tape.counts[IS_FULL] = 0
 
 
-def with_own_error(number: LinkedNumber) -> LinkedNumber:
+def hit_with_error(number: LinkedNumber) -> LinkedNumber:
     """A number that holds the same values: linear in the symbols that it depends on, plus one of its own for the rest.
 
     What is computed from it in several places shares that one.
@@ -114,7 +120,7 @@ def work_done() -> int:
 
 
 def is_full() -> bool:
-    """Whether something had no room since rays were forgotten: then nothing that was computed means anything."""
+    """Whether something had no room since the tape was reset: then nothing that was computed means anything."""
     was_full: int = state().tape.counts[IS_FULL]
     return was_full == 1
 

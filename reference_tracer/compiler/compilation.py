@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from raytruth.reference_tracer.compiler.dependencies import said
-from raytruth.reference_tracer.compiler.loading import loaded
+from raytruth.reference_tracer.compiler.loading import LoadedFunction, loaded
 from raytruth.reference_tracer.compiler.lowering import lowered_module
 from raytruth.reference_tracer.compiler.machine_code import object_code, processor
 from raytruth.reference_tracer.compiler.names import functions_of_text
@@ -47,7 +47,7 @@ class Program:
         entry_points = [typer.instance(names[name], kinds) for name, kinds in self.entry_points.items()]
         return lowered_module(entry_points, self.stack_capacity, self.state)
 
-    def compiled(self) -> dict[str, Callable[..., None]]:
+    def compiled(self) -> dict[str, LoadedFunction]:
         """The entry points, compiled or as they were kept. Raises NotCompilableError."""
         shared = (self.state,) if self.state else ()
         called = {name: (*shared, *kinds) for name, kinds in self.entry_points.items()}

@@ -32,13 +32,13 @@ OF_ONE = {
     "sqrt": "linked_root",
     "exp": "linked_exponential",
     "tan": "linked_tangent",
-    "own": "with_own_error",
+    "own": "hit_with_error",
 }
 CODES = {name: code for code, name in enumerate([*OF_TWO, *OF_ONE])}
 
 TEXT = f"""
 def put(ball, places):
-    places[0] = linked_number(ball).place
+    places[0] = number_of_ball(ball).place
 
 def operate(code, first, second, places):
     places[0] = result(code, LinkedNumber(first), LinkedNumber(second)).place
@@ -75,7 +75,7 @@ def compare(first, second, balls, answers):
     answers[6] = 1 if below.is_one else 0
 
 def forget(row):
-    begin_anew()
+    reset()
     forget_rays(row)
 """
 INTEGER, INTEGERS, BALLS = Integer(), Array(Integer()), Array(BALL)

@@ -11,6 +11,7 @@ from raytruth.reference_tracer.compiler.types import Array, Float, Integer
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from raytruth.reference_tracer.compiler.loading import LoadedFunction
     from raytruth.reference_tracer.compiler.types import Tuple, Type
 
 NUMBER, INTEGER = Float(64), Integer()
@@ -31,7 +32,7 @@ def program(
     return Program(text, FILE, names, {"run": kinds}, operations or {}, capacity, state)
 
 
-def compiled(text: str, *kinds: Type, names: Mapping[str, Any] = MATH, **more: Any) -> Callable[..., None]:
+def compiled(text: str, *kinds: Type, names: Mapping[str, Any] = MATH, **more: Any) -> LoadedFunction:
     """The function `run` of the text, as machine code."""
     return program(text, *kinds, names=names, **more).compiled()["run"]
 
