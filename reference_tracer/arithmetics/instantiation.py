@@ -92,7 +92,7 @@ def exact_functions() -> frozenset[str]:
 
 
 def kernel_source(
-    features: Collection[str],
+    features: Collection[str] | None,
     behaviour: Behaviour = IDEAL,
     *,
     entry_points: tuple[str, ...] = ENTRY_POINTS,
@@ -102,13 +102,15 @@ def kernel_source(
 ) -> tuple[str, dict[str, float]]:
     """The kernel as Python text, and the literals it uses by the names that they have in it.
 
+    Without features nothing is left out: their names stay in the text, which asks them as it runs.
     The source of a behaviour's function is put in place of the function that it stands in for, under that function's
     name; helpers follow behind. All may use what the functions of the source may.
     Raises KeyError for a function that does not exist, or a feature that the source does not know; ValueError for a
     helper or a constant that already exists.
     """
     _, constants = _functions_and_constants(source_module())
-    pruned, literals = _pruned_functions(frozenset(features))
+    kept = None if features is None else frozenset(features)
+    pruned, literals = _pruned_functions(kept)
     functions, namer = dict(pruned), _LiteralNamer(dict(literals))
     helpers = {helper.__name__: helper for helper in behaviour.helpers}
     for name in (*helpers, *behaviour.constants):
@@ -120,7 +122,7 @@ def kernel_source(
     for name, override in behaviour.functions.items():
         functions[name] = _PrunedFunction(namer.visit(_FeaturePruner(features).prune(_override(name, override))))
     for name, helper in helpers.items():
-        functions[name], its_literals = _pruned_helper(helper, frozenset(features))
+        functions[name], its_literals = _pruned_helper(helper, kept)
         namer.names.update(its_literals)
     for name, outer in behaviour.around.items():
         if name in functions:  # a scene may not require it
@@ -173,9 +175,9 @@ class _PrunedFunction:
 
 
 @cache
-def _pruned_functions(features: frozenset[str]) -> tuple[dict[str, _PrunedFunction], dict[str, float]]:
+def _pruned_functions(features: frozenset[str] | None) -> tuple[dict[str, _PrunedFunction], dict[str, float]]:
     """All functions for these features, and the values of their literals by name."""
-    unknown = features - SOURCE_FEATURES
+    unknown = (features or frozenset()) - SOURCE_FEATURES
     if unknown:  # else what is new in scenes would be left out of every image without a word
         raise KeyError(f"the tracer's source knows no {', '.join(sorted(unknown))}")
     functions, _ = _functions_and_constants(source_module())
@@ -185,7 +187,7 @@ def _pruned_functions(features: frozenset[str]) -> tuple[dict[str, _PrunedFuncti
 
 
 @cache
-def _pruned_helper(function: Function, features: frozenset[str]) -> tuple[_PrunedFunction, dict[str, float]]:
+def _pruned_helper(function: Function, features: frozenset[str] | None) -> tuple[_PrunedFunction, dict[str, float]]:
     """A helper for these features, with its literals named; kept, since many kernels have the same ones."""
     namer = _LiteralNamer({})
     pruned = _FeaturePruner(features).prune(_override(function.__name__, function))
@@ -233,8 +235,8 @@ def _reachable(functions: dict[str, _PrunedFunction], entry_points: tuple[str, .
 class _FeaturePruner(ast.NodeTransformer):
     """Replaces feature names by True and False and drops the branches that cannot be taken."""
 
-    def __init__(self, features: Collection[str]) -> None:
-        self.values = {name: name in features for name in SOURCE_FEATURES}
+    def __init__(self, features: Collection[str] | None) -> None:
+        self.values = {} if features is None else {name: name in features for name in SOURCE_FEATURES}
 
     def prune(self, function: ast.FunctionDef) -> ast.FunctionDef:
         pruned: ast.FunctionDef = self.visit(ast.parse(ast.unparse(function)).body[0])

@@ -104,3 +104,26 @@ def next_way(first: int) -> bool:
             return True
         last = last - 1
     return False
+
+
+def ways_left(first: int) -> int:
+    """How many ways of the answers from place `first` on are left at least: each True among them leads to one."""
+    decisions = state().decisions
+    left = 0
+    for place in range(first, decisions.counts[RECORDED]):
+        left = left + decisions.answers[place]
+    return left
+
+
+def begin_decisions() -> None:
+    """Forget all answers."""
+    counts = state().decisions.counts
+    counts[POSITION] = 0
+    counts[RECORDED] = 0
+    counts[HAS_LOST] = 0
+
+
+def count_comparison() -> None:
+    """One more, of any numbers: a measure of work that depends on no clock."""
+    counts = state().decisions.counts
+    counts[COMPARISONS] = counts[COMPARISONS] + 1
