@@ -1,31 +1,40 @@
-"""The tracer compiled over linked numbers on a tape, with a renderer's behaviour: what TapeRays call."""
+"""The tracer compiled over linked numbers on a tape, with a renderer's behaviour: what TapeRays call.
+
+One program serves all scenes and all error models of the same functions: what else they differ by is in its state.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from raytruth.comparisons.feasible_sets.run_time_names import PI, with_run_time_names
 from raytruth.reference_tracer.arithmetics import linked_steps, linked_tape, linked_tape_rows, scripted_decisions
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour, merged
 from raytruth.reference_tracer.arithmetics.compilation import scene_type
 from raytruth.reference_tracer.arithmetics.instantiation import kernel_source
+from raytruth.reference_tracer.arithmetics.linked_tape import LinkedNumber
+from raytruth.reference_tracer.arithmetics.linked_tape_arithmetic import TapeConstants, linked_tape_arithmetic
 from raytruth.reference_tracer.arithmetics.linked_tape_memory import BALL, tape_type
 from raytruth.reference_tracer.arithmetics.scripted_decisions import DECISIONS, ScriptedDecisions
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 from raytruth.reference_tracer.compiler.compilation import Program
-from raytruth.reference_tracer.compiler.names import NotCompilableError
+from raytruth.reference_tracer.compiler.questions import state
 from raytruth.reference_tracer.compiler.types import Array, Float, Integer, Tuple
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
+    from collections.abc import Mapping
 
     from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
+    from raytruth.reference_tracer.arithmetics.behaviour import Function
     from raytruth.reference_tracer.arithmetics.linked_tape import LinkedTape
-    from raytruth.reference_tracer.arithmetics.linked_tape_arithmetic import TapeConstants
     from raytruth.reference_tracer.compiler.loading import LoadedFunction
     from raytruth.reference_tracer.compiler.types import Type
+    from raytruth.reference_tracer.source.numbers import Table
 
 INTEGER, INTEGERS = Integer(), Array(Integer())
+FLOAT32_BITS = 24
+INFINITY = "inf"
 
 
 class State(NamedTuple):
@@ -34,9 +43,16 @@ class State(NamedTuple):
     tape: LinkedTape
     roundoff: float
     decisions: ScriptedDecisions
+    constants: Table
+    """Numbers one by one, then lists of numbers one after the other."""
+    starts: Table
+    """Where the lists begin."""
+    features: Table
+    """1 for those that the scene requires."""
 
 
-STATE = Tuple((tape_type(), Float(64), DECISIONS), State._fields, State.__name__)
+NUMBERS = Array(Tuple((INTEGER,), LinkedNumber._fields, LinkedNumber.__name__))
+STATE = Tuple((tape_type(), Float(64), DECISIONS, NUMBERS, INTEGERS, INTEGERS), State._fields, State.__name__)
 
 STEPS = Behaviour(
     helpers=(
@@ -72,34 +88,54 @@ NAMES: dict[str, Any] = {
         scripted_decisions.paused,
         scripted_decisions.resume,
     )
-} | {"FRAME_ROWS": linked_steps.FRAME_ROWS, "MOST_WAYS": scripted_decisions.MOST_WAYS}
+} | {"state": state, "FRAME_ROWS": linked_steps.FRAME_ROWS, "MOST_WAYS": scripted_decisions.MOST_WAYS}
 # The rays that go on from one, and the one itself.
 STACK_CAPACITY = 1 + linked_steps.MOST_CHILDREN
 
 
-def linked_program(
-    features: Collection[str], behaviour: Behaviour, arithmetic: Arithmetic, constants: TapeConstants
-) -> Mapping[str, LoadedFunction]:
-    """The functions of linked_steps.py, compiled for scenes with these features.
+class LinkedProgram(NamedTuple):
+    """A program's functions, and what it reads from its state by name."""
+
+    functions: Mapping[str, LoadedFunction]
+    numbers: tuple[str, ...]
+    lists: tuple[str, ...]
+    literals: dict[str, float]
+    """Those of the numbers that are literals of the source."""
+
+
+def linked_program(behaviour: Behaviour) -> LinkedProgram:
+    """The functions of linked_steps.py, compiled for all scenes and for whatever the behaviour's constants are.
 
     Raises NotCompilableError for a behaviour that the compiler does not know.
     """
-    lists = [name for name, value in behaviour.constants.items() if isinstance(value, list)]
-    if lists:
-        raise NotCompilableError(f"{behaviour.name} has a list of numbers: {lists[0]}")
-    plain = replace(behaviour, functions={**PLAIN_FORMS, **behaviour.functions})
+    lists = sorted(name for name, value in behaviour.constants.items() if isinstance(value, list))
+    own = sorted(behaviour.constants.keys() - set(lists))
+    functions = tuple(sorted(behaviour.functions.items()))
+    return _linked_program(functions, behaviour.helpers, tuple(own), tuple(lists))
+
+
+@cache
+def _linked_program(
+    functions: tuple[tuple[str, Function], ...],
+    helpers: tuple[Function, ...],
+    own: tuple[str, ...],
+    lists: tuple[str, ...],
+) -> LinkedProgram:
+    behaviour = Behaviour({**PLAIN_FORMS, **dict(functions)}, helpers, dict.fromkeys((*own, *lists)))
+    arithmetic = linked_tape_arithmetic(TapeConstants(FLOAT32_BITS))  # of which only the operations are compiled
     kinds = _entry_points(arithmetic)
-    source, literals = kernel_source(features, merged(plain, STEPS), entry_points=tuple(kinds))
-    names = {
-        **{name: constants.stored(value) for name, value in literals.items()},
-        **{name: constants.of_arb(value) for name, value in behaviour.constants.items()},
-        **NAMES,
-        **arithmetic.functions,
-    }
+    text, literals = kernel_source(None, merged(behaviour, STEPS), entry_points=tuple(kinds))
+    numbers = (PI, INFINITY, *literals, *own)
     program = Program(
-        source, f"<kernel in {arithmetic.name}>", names, kinds, arithmetic.operations, STACK_CAPACITY, STATE
+        with_run_time_names(text, numbers, lists, ()),
+        f"<kernel in {arithmetic.name}>",
+        {**NAMES, **arithmetic.functions},
+        kinds,
+        arithmetic.operations,
+        STACK_CAPACITY,
+        STATE,
     )
-    return program.compiled()
+    return LinkedProgram(program.compiled(), numbers, lists, literals)
 
 
 def _entry_points(arithmetic: Arithmetic) -> dict[str, tuple[Type, ...]]:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from flint import arb
 
 from raytruth.comparisons.error_models.behaviours import behaviour_of
-from raytruth.comparisons.feasible_sets.linked_program import State, linked_program
+from raytruth.comparisons.feasible_sets.linked_program import INFINITY, State, linked_program
 from raytruth.comparisons.feasible_sets.rounded_rays import rounded_indices
+from raytruth.comparisons.feasible_sets.run_time_names import FEATURES, PI
 from raytruth.reference_tracer.arithmetics.arithmetic import Namespace
 from raytruth.reference_tracer.arithmetics.balls import Decisions
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, merged
@@ -31,7 +33,10 @@ from raytruth.reference_tracer.tables import build_tables
 from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.comparisons.feasible_sets.linked_program import LinkedProgram
     from raytruth.comparisons.feasible_sets.rounded_rays import Box, Ray
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.reference_tracer.arithmetics.kernel import Kernel
@@ -58,12 +63,15 @@ class TapeRays:
         features = required_features(scene)
         with arithmetic.in_force():
             all_of_it = merged(behaviour_of(error_model, scene), behaviour)
-            program = linked_program(features, all_of_it, arithmetic, constants)
+            program = linked_program(all_of_it)
             data = build_tables(scene, features, arithmetic)
             self.prepared = PreparedScene(scene, arithmetic, cast("Kernel", Namespace({})), data)
             for place, value in rounded_indices(scene, data, error_model.index_bits):
                 constants.balls[data.numbers[place, 0]] = Ball(value, 0.0)
-        self._state = State(tape_memory(constants.balls), 2.0**-bits, decisions_memory())
+            numbers, starts = _numbers(program, all_of_it, constants)
+        required = np.array([name in features for name in FEATURES], dtype=np.int64)
+        tape = tape_memory(constants.balls)
+        self._state = State(tape, 2.0**-bits, decisions_memory(), numbers, starts, required)
         self._found = np.zeros(1, dtype=np.int64)
         self._hit = np.zeros((7, 2))
         self._boxes = np.zeros((1 + MOST_CHILDREN, 3, 2))
@@ -74,7 +82,7 @@ class TapeRays:
             "followed_ray": (data, self._boxes, self._children),
             "first_hit": (data, self._hit, self._found),
         }
-        self._calls = {name: program[name].bound(self._state, *first) for name, first in given.items()}
+        self._calls = {name: program.functions[name].bound(self._state, *first) for name, first in given.items()}
         self._call("kept_frame")
 
     def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
@@ -114,6 +122,22 @@ class TapeRays:
         if self._state.tape.counts[IS_FULL] or counts[HAS_LOST]:
             counts[HAS_LOST] = 0
             raise TapeIsFullError
+
+
+def _numbers(
+    program: LinkedProgram, behaviour: Behaviour, constants: TapeConstants
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The numbers of the program's state, the lists of numbers behind them, and where these begin."""
+    about_one = arb(1, arb(2) ** -constants.precision_bits)
+    known = {INFINITY: constants.stored(math.inf), PI: constants.of_arb(arb.pi() * about_one)}
+    known |= {name: constants.stored(value) for name, value in program.literals.items()}
+    known |= {name: constants.of_arb(behaviour.constants[name]) for name in program.numbers if name not in known}
+    numbers = [known[name] for name in program.numbers]
+    starts = []
+    for name in program.lists:
+        starts.append(len(numbers))
+        numbers.extend(map(constants.of_arb, behaviour.constants[name]))
+    return np.array(numbers, dtype=np.int64), np.array([*starts, 0], dtype=np.int64)
 
 
 def _box(balls: list[list[float]]) -> Box:

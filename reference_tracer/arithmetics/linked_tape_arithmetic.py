@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
-from flint import arb, ctx
+from flint import ctx
 
 from raytruth.reference_tracer.arithmetics import linked_tape_operations as operations
 from raytruth.reference_tracer.arithmetics.arithmetic import Arithmetic
@@ -39,11 +38,10 @@ class TapeConstants:
 def linked_tape_arithmetic(constants: TapeConstants) -> Arithmetic:
     """Linked numbers of a renderer whose operations err by 2^-bits at most, relatively, for the bits of the constants.
 
-    A program in this arithmetic has a state with a tape of these constants, the roundoff, and decisions.
+    A program in this arithmetic has a state with a tape of these constants, the roundoff, and decisions. π and infinity
+    are to be among the constants.
     """
     bits = constants.precision_bits
-    with ctx.workprec(bits + MARGIN_BITS):
-        pi = constants.of_arb(arb.pi() * arb(1, arb(2) ** -bits))
     return Arithmetic(
         "linked numbers on a tape",
         constants.stored,
@@ -53,10 +51,8 @@ def linked_tape_arithmetic(constants: TapeConstants) -> Arithmetic:
             "exp": operations.linked_exponential,
             "float": number_of_integer,
             "floor": decided_floor,
-            "inf": constants.stored(math.inf),
             "max": operations.linked_maximum,
             "min": operations.linked_minimum,
-            "pi": pi,
             "sqrt": operations.linked_root,
             "tan": operations.linked_tangent,
         },
