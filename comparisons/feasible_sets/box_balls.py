@@ -9,9 +9,9 @@ from __future__ import annotations
 from raytruth.reference_tracer.arithmetics.float_ball_comparisons import certainly_less, equal
 from raytruth.reference_tracer.arithmetics.float_balls import (
     LARGEST,
-    OUTWARD,
     Ball,
     add,
+    below,
     from_zero_to,
     hull,
     lower,
@@ -48,8 +48,9 @@ def ball_hull(a: Ball, b: Ball) -> Ball:
 
 
 def from_black(weight: Ball, factor: float) -> Ball:
-    """All from 0 to a weight times a factor that is not negative; the product is rounded up."""
-    return from_zero_to(upper(weight) * factor * OUTWARD)
+    """All from 0 to a weight times a factor that is not negative; the product is rounded up, unless it is 0."""
+    most = upper(weight)
+    return from_zero_to(-below(-(most * factor)) if most != 0.0 and factor != 0.0 else 0.0)
 
 
 def ball_common(ball: Ball, possible: Ball) -> Ball:

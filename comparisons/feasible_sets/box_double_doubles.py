@@ -38,7 +38,7 @@ def ball_hull(a: DoubleDoubleBall, b: DoubleDoubleBall) -> DoubleDoubleBall:
 
 
 def from_black(weight: DoubleDoubleBall, factor: float) -> DoubleDoubleBall:
-    """All from 0 to a weight times a factor that is not negative; the product is rounded up."""
+    """All from 0 to a weight times a factor that is not negative; the product is rounded up, unless it is 0."""
     return from_float_ball(box_balls.from_black(to_float_ball(weight), factor))
 
 

@@ -57,8 +57,7 @@ def heaviest(weight: Box) -> float:
     most = upper_end(weight[0])
     for channel in range(1, 3):
         end = upper_end(weight[channel])
-        if end > most:  # noqa: PLR1730 - `max` is that of the arithmetic's numbers here
-            most = end
+        most = end if end > most else most
     return most
 
 

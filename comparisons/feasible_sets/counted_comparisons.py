@@ -7,37 +7,37 @@ from typing import Any
 from raytruth.reference_tracer.arithmetics.scripted_decisions import count_comparison
 
 
-def is_less(a: Any, b: Any) -> bool:
+def is_less(a: Any, b: Any) -> Any:
     """Whether a < b."""
     count_comparison()
     return a < b
 
 
-def is_greater(a: Any, b: Any) -> bool:
+def is_greater(a: Any, b: Any) -> Any:
     """Whether a > b."""
     count_comparison()
     return b < a
 
 
-def is_less_or_equal(a: Any, b: Any) -> bool:
+def is_less_or_equal(a: Any, b: Any) -> Any:
     """Whether a ≤ b."""
     count_comparison()
     return a <= b
 
 
-def is_greater_or_equal(a: Any, b: Any) -> bool:
+def is_greater_or_equal(a: Any, b: Any) -> Any:
     """Whether a ≥ b."""
     count_comparison()
     return b <= a
 
 
-def is_equal(a: Any, b: Any) -> bool:
+def is_equal(a: Any, b: Any) -> Any:
     """Whether a = b."""
     count_comparison()
     return a == b
 
 
-def is_different(a: Any, b: Any) -> bool:
+def is_different(a: Any, b: Any) -> Any:
     """Whether a ≠ b."""
     count_comparison()
     return not a == b  # noqa: SIM201 - of balls only equality is an operation

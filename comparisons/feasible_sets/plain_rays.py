@@ -1,33 +1,28 @@
 """What the compiled evaluator asks of plain balls: a number is all that is known of it (PlainRays in rounded_rays.py).
 
-In the compiler's language; linked numbers have functions of the same names.
+In the compiler's language. To the type checker a number is of any type: the source says `float` for it.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 from raytruth.comparisons.feasible_sets.tree_memory import IS_FULL, MOST_NODES, RAYS
 from raytruth.reference_tracer.arithmetics.scripted_decisions import COMPARISONS
 from raytruth.reference_tracer.compiler.questions import state
 
-if TYPE_CHECKING:
-    from raytruth.reference_tracer.arithmetics.float_balls import Ball
 
-    Vector = tuple[Ball, Ball, Ball]
-
-
-def known_number(ball: Ball) -> Ball:
+def known_number(ball: Any) -> Any:
     """A number of which a ball is known."""
     return ball
 
 
-def box_of(number: Ball) -> Ball:
+def box_of(number: Any) -> Any:
     """The ball that holds it."""
     return number
 
 
-def keep_ray(origin: Vector, direction: Vector) -> int:
+def keep_ray(origin: Any, direction: Any) -> int:
     """Keep a ray behind the others; gives its place."""
     counts, rays = state().tree.counts, state().rays
     place: int = counts[RAYS]
@@ -41,7 +36,7 @@ def keep_ray(origin: Vector, direction: Vector) -> int:
     return place
 
 
-def kept_ray(place: int) -> tuple[Vector, Vector]:
+def kept_ray(place: int) -> Any:
     """Its origin and direction."""
     rays = state().rays
     return (rays[place, 0], rays[place, 1], rays[place, 2]), (rays[place, 3], rays[place, 4], rays[place, 5])

@@ -53,7 +53,8 @@ class _RunTimeNames(ast.NodeTransformer):
     def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
         if isinstance(node.value, ast.Name) and self._is_list(node.value):
             return self._listed(node.value.id, ast.unparse(self.visit(node.slice)))
-        return self.generic_visit(node)  # type: ignore[return-value] - an expression stays one
+        node.value, node.slice = self.visit(node.value), self.visit(node.slice)
+        return node
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
         if node.id in self.own:
