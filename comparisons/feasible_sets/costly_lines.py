@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from dataclasses import Field
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
-    from raytruth.comparisons.feasible_sets.pixel_outcomes import Pixel
+    from raytruth.comparisons.feasible_sets.rounded_rays import Pixel
     from raytruth.scenes.scene import Scene
 
 # Enough to tell half of the pixels from a tenth of them, and a few seconds for each line.

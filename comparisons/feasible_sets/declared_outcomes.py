@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from raytruth.comparisons.feasible_sets.feasible_pixel import FirstHit
-    from raytruth.comparisons.feasible_sets.pixel_outcomes import Colors, Pixel
+    from raytruth.comparisons.feasible_sets.plain_pixels import Colors
+    from raytruth.comparisons.feasible_sets.rounded_rays import Pixel
     from raytruth.reference_tracer.certified_image import CertifiedImage
 
 Bounds = list[tuple[float, float]]

@@ -39,7 +39,8 @@ if TYPE_CHECKING:
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.feasible_sets.declared_outcomes import Bounds, DueHits
-    from raytruth.comparisons.feasible_sets.pixel_outcomes import Colors, Pixel
+    from raytruth.comparisons.feasible_sets.plain_pixels import Colors
+    from raytruth.comparisons.feasible_sets.rounded_rays import Pixel
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.reference_tracer.certified_image import CertifiedImage
     from raytruth.scenes.scene import Scene

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.feasible_sets.feasible_pixel import FirstHit, PixelEvaluator, UndecidableError, widest
-from raytruth.comparisons.feasible_sets.rounded_rays import LinkedRays, PlainRays
+from raytruth.comparisons.feasible_sets.feasible_pixel import widest
+from raytruth.comparisons.feasible_sets.linked_pixels import LinkedPixels
+from raytruth.comparisons.feasible_sets.plain_pixels import Colors, PlainPixels, colors_of, first_hits_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.comparisons.feasible_sets.feasible_pixel import FirstHit
     from raytruth.comparisons.feasible_sets.radiance_bound import RadianceBound
-    from raytruth.comparisons.feasible_sets.rounded_rays import Box
+    from raytruth.comparisons.feasible_sets.rounded_rays import Pixel
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.scenes.scene import Scene
 
@@ -25,23 +26,6 @@ FLOAT32_BITS = 24
 # balls count takes 2 to 4 µs, and a pixel is evaluated in them twice at most: 2 · 2^12 · 2.7 µs = 22 ms. The library
 # needs 3,600 at most.
 PLAIN_WORK = 2**12
-# What linked balls count takes 0.5 to 1.2 µs, mostly 0.8: 2^16 · 0.8 µs = 52 ms a pixel, shared by those that need it.
-# The library needs 87 % of such a share at most, and 76 % but for one pixel.
-LINKED_WORK = 2**16
-
-Pixel = tuple[int, int]
-"""Column and row."""
-
-
-@dataclass(frozen=True)
-class Colors:
-    """The feasible colours of one pixel."""
-
-    boxes: list[Box]
-    merged: bool
-    """Whether they were too many to tell apart, or too long to find."""
-    spent: bool
-    """Whether they were too long to find: the pixel's work was spent before all of its rays were followed."""
 
 
 class PixelOutcomes:
@@ -56,14 +40,10 @@ class PixelOutcomes:
         share: float = 1.0,
     ) -> None:
         self._model, self._model_of_light = error_model, error_model.of_light()
-        self._linked_work = int(LINKED_WORK * scene.camera.width * scene.camera.height * share)
+        self._linked_share = scene.camera.width * scene.camera.height * share
         # Made only where they are needed; often the error model is that of light, too.
-        self._plain = cache(
-            lambda model: PixelEvaluator(PlainRays(scene, model, behaviour), bound, FLOAT32_BITS, PLAIN_WORK)
-        )
-        self._linked = cache(
-            lambda model: PixelEvaluator(LinkedRays(scene, model, behaviour), bound, FLOAT32_BITS, LINKED_WORK)
-        )
+        self._plain = cache(lambda model: PlainPixels(scene, model, behaviour, bound, FLOAT32_BITS, PLAIN_WORK))
+        self._linked = cache(lambda model: LinkedPixels(scene, model, behaviour, bound, FLOAT32_BITS))
 
     def colors_and_hits(
         self, pixels: Sequence[Pixel], *, with_colors: bool = True, with_hits: bool = True, brightest: float = 0.0
@@ -74,16 +54,15 @@ class PixelOutcomes:
         all outcomes apart, and those whose boxes are wide beside the image's brightest value, which is at least
         `brightest`. Where the surface that a ray leaves is tested by a formula, also those with several outcomes.
         """
-        colors: list[Colors | None] = []
-        hits: list[list[FirstHit] | None] = []
-        for pixel in pixels:
-            colors.append(_colors(self._plain(self._model_of_light), pixel, may_merge=False) if with_colors else None)
-            hits.append(_first_hits(self._plain(self._model), pixel) if with_hits else None)
+        colors: list[Colors | None] = [None] * len(pixels)
+        hits: list[list[FirstHit] | None] = [None] * len(pixels)
         if with_colors:
+            colors = self._plain(self._model_of_light).colors(pixels, may_merge=False)
             self._sharpen(pixels, colors, brightest)
         if with_hits:
+            hits = self._plain(self._model).first_hits(pixels)
             for place in [place for place, hit in enumerate(hits) if hit is None]:
-                hits[place] = _first_hits(self._linked(self._model), pixels[place])
+                hits[place] = first_hits_of(self._linked(self._model), pixels[place])
         return colors, hits
 
     def _sharpen(self, pixels: Sequence[Pixel], colors: list[Colors | None], brightest: float) -> None:
@@ -93,16 +72,17 @@ class PixelOutcomes:
         if not unclear and not wide:
             return
         linked = self._linked(model)
-        linked.most_work = self._linked_work // len([*unclear, *wide])
+        linked.expect(len([*unclear, *wide]))
+        linked.share = self._linked_share / len([*unclear, *wide])
         for place in unclear:
             pixel = pixels[place]
-            colors[place] = _colors(linked, pixel)
+            colors[place] = colors_of(linked, pixel)
             if colors[place] is None and not linked.spent:
-                colors[place] = _colors(self._plain(model), pixel)
+                (colors[place],) = self._plain(model).colors([pixel], may_merge=True)
         for place in sorted(
             set(_loose(colors, brightest, model)) - set(unclear)
         ):  # fewer, now that the brightest is known
-            colors[place] = _sharper(_colors(linked, pixels[place]), colors[place])
+            colors[place] = _sharper(colors_of(linked, pixels[place]), colors[place])
 
 
 def _loose(colors: Sequence[Colors | None], brightest: float, model: ErrorModel) -> list[int]:
@@ -134,17 +114,3 @@ def brightest_of(colors: Sequence[Colors | None]) -> float:
     """The largest value of a channel among the known colours; 0 if none is known."""
     known = [box for color in colors if color for box in color.boxes]
     return max((float(channel.mid()) for box in known for channel in box), default=0.0)
-
-
-def _colors(evaluator: PixelEvaluator, pixel: Pixel, *, may_merge: bool = True) -> Colors | None:
-    try:
-        return Colors(*evaluator.colors(*pixel, may_merge=may_merge), evaluator.spent)
-    except UndecidableError:
-        return None
-
-
-def _first_hits(evaluator: PixelEvaluator, pixel: Pixel) -> list[FirstHit] | None:
-    try:
-        return evaluator.first_hits(*pixel)
-    except UndecidableError:
-        return None

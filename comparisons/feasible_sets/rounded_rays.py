@@ -29,7 +29,7 @@ from raytruth.reference_tracer.source.scene_data import MATERIAL_INDEX, MATERIAL
 from raytruth.reference_tracer.source.traversal import NOTHING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 
     NearestHit = Callable[[SceneData, Any, Any, int], tuple[Any, int]]
 
+Pixel = tuple[int, int]
+"""Column and row."""
 Box = tuple[Any, Any, Any]
 """A ball for each channel."""
 Ray = tuple[Any, ...]
@@ -75,22 +77,25 @@ class PlainRays:
 
     def __init__(self, scene: Scene, error_model: ErrorModel, behaviour: Behaviour = IDEAL) -> None:
         self.decisions = Decisions()
-        self._image_radius = error_model.image_radius
+        self.image_radius = error_model.image_radius
+        self.precision_bits = error_model.precision_bits
+        self.has_exact_camera = error_model.rasterisation is not None
         arithmetic = rounded_ball_arithmetic(error_model.precision_bits, self.decisions)
         with arithmetic.in_force():
-            self.prepared = prepare(scene, arithmetic, merged(behaviour_of(error_model, scene), behaviour))
+            self.behaviour = merged(behaviour_of(error_model, scene), behaviour)
+            self.prepared = prepare(scene, arithmetic, self.behaviour)
             store_indices(self.prepared, error_model.index_bits)
             kernel = self.prepared.kernel
             kernel.nearest_hit = RememberedHit(kernel.nearest_hit, self.decisions)
             decide_shadows_once(kernel, self.decisions)
             camera = _exact_camera(scene, error_model) or self.prepared
             self._primary_ray = camera.kernel.primary_ray
-            self._frame = camera.kernel.camera_frame(camera.data)
+            self.frame = camera.kernel.camera_frame(camera.data)
 
     def primary_ray(self, column: int, row: int) -> tuple[Any, Any]:
         """Origin and direction as balls, through the centre of a pixel or near it, as the error model says."""
-        x, y = arb(column + 0.5, self._image_radius), arb(row + 0.5, self._image_radius)
-        return self._primary_ray(self._frame, x, y)
+        x, y = arb(column + 0.5, self.image_radius), arb(row + 0.5, self.image_radius)
+        return self._primary_ray(self.frame, x, y)
 
     def trace(self, ray: Ray) -> tuple[Box, list[Ray]]:
         """What a ray brings by itself, as balls, and the rays that go on from its end."""
@@ -164,16 +169,21 @@ def _exact_camera(scene: Scene, error_model: ErrorModel) -> PreparedScene | None
 
 def store_indices(prepared: PreparedScene, bits: int | None) -> None:
     """Round the indices of refraction in the tables, as a renderer with so few bits does; None: as all numbers."""
+    linked = prepared.arithmetic.functions.get("ball")
+    for place, value in rounded_indices(prepared.scene, prepared.data, bits):
+        prepared.data.numbers[place] = linked(arb(value)) if linked else arb(value)
+
+
+def rounded_indices(scene: Scene, data: SceneData, bits: int | None) -> Iterator[tuple[int, float]]:
+    """The indices of refraction, rounded to so many bits, and where they stand among the numbers; none for None."""
     if bits is None:
         return
-    linked = prepared.arithmetic.functions.get("ball")
-    exact = prepare(prepared.scene, FLOAT).data.numbers
+    exact = prepare(scene, FLOAT).data.numbers
     for table in (MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX):
-        first = prepared.data.integers[table]
-        for place in range(first, first + rows_of(prepared.data, table)):
+        first = data.integers[table]
+        for place in range(first, first + rows_of(data, table)):
             mantissa, exponent = math.frexp(exact[place])
-            rounded = arb(math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits))
-            prepared.data.numbers[place] = linked(rounded) if linked else rounded
+            yield place, math.ldexp(round(math.ldexp(mantissa, bits)), exponent - bits)
 
 
 def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int, tuple[Any, ...]]:

@@ -24,11 +24,18 @@ class Behaviour:
     """What the functions name but do not define: numbers of the kernel's number type, or lists of them."""
     name: str = "a behaviour"
     """What it is called in messages."""
+    around: Mapping[str, Function] = field(default_factory=dict)
+    """Functions that stand in for the source's, or for those of `functions`, and may call them: as `inner_NAME`."""
 
     @property
     def names(self) -> tuple[str, ...]:
         """All names that it gives a meaning: of functions it replaces, of helpers and of constants."""
-        return (*self.functions, *(helper.__name__ for helper in self.helpers), *self.constants)
+        return (
+            *self.functions,
+            *map(inner_name, self.around),
+            *(helper.__name__ for helper in self.helpers),
+            *self.constants,
+        )
 
     def with_numbers(self, number: Function) -> Behaviour:
         """The behaviour for another number type: `number` converts each constant, and each number of a list."""
@@ -37,6 +44,11 @@ class Behaviour:
             for name, value in self.constants.items()
         }
         return replace(self, constants=constants)
+
+
+def inner_name(name: str) -> str:
+    """What a function is called inside of one that is put around it."""
+    return f"inner_{name}"
 
 
 IDEAL = Behaviour(name="the source's own behaviour")
@@ -56,4 +68,5 @@ def merged(*behaviours: Behaviour) -> Behaviour:
         tuple(helper for behaviour in behaviours for helper in behaviour.helpers),
         {name: value for behaviour in behaviours for name, value in behaviour.constants.items()},
         " and ".join(behaviour.name for behaviour in behaviours if behaviour.names),
+        {name: function for behaviour in behaviours for name, function in behaviour.around.items()},
     )

@@ -90,6 +90,14 @@ def power(base: Ball, exponent: Ball, roundoff: float) -> Ball:
     return rounded_ball(_between(of_least, of_most), roundoff)
 
 
+def log(x: Ball) -> Ball:
+    """The logarithm, which rises: between those of the ends; unknown where x need not be positive and finite."""
+    least, most = lower(x), upper(x)
+    if not (least > 0.0 and most <= LARGEST):
+        return UNKNOWN
+    return _between(_log_at(least), _log_at(most))
+
+
 def tan(x: Ball, roundoff: float) -> Ball:
     """The tangent, which rises between -π/2 and π/2: between those of the ends; unknown beyond, as for no camera."""
     least, most = lower(x), upper(x)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from raytruth.reference_tracer.compiler.dependencies import said
-from raytruth.reference_tracer.compiler.loading import loaded
+from raytruth.reference_tracer.compiler.loading import LoadedFunction, loaded
 from raytruth.reference_tracer.compiler.lowering import lowered_module
 from raytruth.reference_tracer.compiler.machine_code import object_code, processor
 from raytruth.reference_tracer.compiler.names import functions_of_text
@@ -17,7 +17,7 @@ from raytruth.reference_tracer.storage.source_digest import source_digest
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from raytruth.reference_tracer.compiler.types import Type
+    from raytruth.reference_tracer.compiler.types import Tuple, Type
 
 ROOM = "reference_tracer/compiler"
 
@@ -38,18 +38,22 @@ class Program:
     """What operators do to numbers that are NamedTuples: functions by the operators' names in module `operator`."""
     stack_capacity: int = 1
     """How many elements a list may hold."""
+    state: Tuple | None = None
+    """The type of what `state` (questions.py) gives, if anything. Entry points take it before their own arguments."""
 
     def ir_text(self) -> str:
         """The program as LLVM's IR, before LLVM has changed anything. Raises NotCompilableError."""
-        names, typer = functions_of_text(self.text, self.file, self.names), Typer(self.operations)
+        names, typer = functions_of_text(self.text, self.file, self.names), Typer(self.operations, self.state)
         entry_points = [typer.instance(names[name], kinds) for name, kinds in self.entry_points.items()]
-        return lowered_module(entry_points, self.stack_capacity)
+        return lowered_module(entry_points, self.stack_capacity, self.state)
 
-    def compiled(self) -> dict[str, Callable[..., None]]:
+    def compiled(self) -> dict[str, LoadedFunction]:
         """The entry points, compiled or as they were kept. Raises NotCompilableError."""
-        return loaded(kept_object(self._depends_on(), lambda: object_code(self.ir_text())), self.entry_points)
+        shared = (self.state,) if self.state else ()
+        called = {name: (*shared, *kinds) for name, kinds in self.entry_points.items()}
+        return loaded(kept_object(self._depends_on(), lambda: object_code(self.ir_text())), called)
 
     def _depends_on(self) -> list[str]:
         """Texts that differ where the object files may."""
-        entry_points = [repr(sorted(self.entry_points.items())), str(self.stack_capacity)]
+        entry_points = [repr(sorted(self.entry_points.items())), str(self.stack_capacity), repr(self.state)]
         return [source_digest(ROOM), *processor(), self.text, *entry_points, *said(self.names), *said(self.operations)]

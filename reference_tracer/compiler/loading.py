@@ -24,7 +24,7 @@ _NUMBERS = itertools.count()
 _LINKING = threading.Lock()
 
 
-def loaded(code: bytes, entry_points: Mapping[str, tuple[Type, ...]]) -> dict[str, Callable[..., None]]:
+def loaded(code: bytes, entry_points: Mapping[str, tuple[Type, ...]]) -> dict[str, LoadedFunction]:
     """The functions of an object file, by name; each is given with the types of its arguments."""
     with _LINKING:
         library = binding.JITLibraryBuilder().add_object_img(code)
@@ -33,7 +33,7 @@ def loaded(code: bytes, entry_points: Mapping[str, tuple[Type, ...]]) -> dict[st
         for name in entry_points:
             library.export_symbol(name)
         linked = library.link(_linker(), f"kernel {next(_NUMBERS)}")
-    return {name: _Function(linked, name, kinds) for name, kinds in entry_points.items()}
+    return {name: LoadedFunction(linked, name, kinds) for name, kinds in entry_points.items()}
 
 
 @functools.cache
@@ -50,7 +50,7 @@ def _library_addresses() -> dict[str, int]:
     return {LIBRARY_PREFIX + name: ctypes.cast(getattr(library, name), ctypes.c_void_p).value or 0 for name in names}
 
 
-class _Function:
+class LoadedFunction:
     """A compiled function. Python's lock is released while it runs, so that threads may run it side by side."""
 
     def __init__(self, linked: Any, name: str, kinds: tuple[Type, ...]) -> None:
@@ -65,7 +65,17 @@ class _Function:
         Raises MemoryError where a stack had no room, and UndecidedError where a comparison was undecided, unless the
         function has taken the marks of it.
         """
-        passed = [leaf for pair in zip(self.kinds, arguments, strict=True) for leaf in _leaves_of(*pair)]
+        self._run(_passed(self.kinds, arguments))
+
+    def bound(self, *first: Any) -> Callable[..., None]:
+        """The function without its first arguments, which are given here once for many short calls.
+
+        Arrays among them must be there as long as it is called.
+        """
+        before, kinds = _passed(self.kinds[: len(first)], first), self.kinds[len(first) :]
+        return lambda *others: self._run([*before, *_passed(kinds, others)])
+
+    def _run(self, passed: list[Any]) -> None:
         _require_subnormal_numbers(sys.float_info.min)
         marks = self.function(*passed)
         if marks & STACK_IS_FULL:
@@ -78,6 +88,10 @@ def _require_subnormal_numbers(smallest_normal: float) -> None:
     """Raise RuntimeError where the processor takes numbers near zero for zero, as another library may have set it."""
     if smallest_normal / 2.0 == 0.0:
         raise RuntimeError("a library in this process has set the processor to flush subnormal numbers to zero")
+
+
+def _passed(kinds: tuple[Type, ...], arguments: tuple[Any, ...]) -> list[Any]:
+    return [leaf for pair in zip(kinds, arguments, strict=True) for leaf in _leaves_of(*pair)]
 
 
 def _ctypes_of(kind: Type) -> list[Any]:

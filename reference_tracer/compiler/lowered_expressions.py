@@ -8,6 +8,7 @@ from llvmlite import ir
 
 from raytruth.reference_tracer.compiler.machine_operations import BOOLEAN, INTEGER, machine_type, operation, reserved
 from raytruth.reference_tracer.compiler.questions import UNDECIDED
+from raytruth.reference_tracer.compiler.typed_tree import Part, Question
 from raytruth.reference_tracer.compiler.types import Float, Stack, Tuple, leaves, part_leaves
 
 if TYPE_CHECKING:
@@ -22,10 +23,8 @@ if TYPE_CHECKING:
         Expression,
         Local,
         Operation,
-        Part,
         PartAt,
         Pop,
-        Question,
         TypedFunction,
     )
 
@@ -36,6 +35,8 @@ class Functions(Protocol):
     """What an expression asks of the module that it is in."""
 
     capacity: int
+    shared: Any
+    """The machine's type of what functions share: the marks, and the leaves of the state."""
 
     def function(self, function: TypedFunction) -> Any:
         """The machine's function."""
@@ -45,10 +46,10 @@ class ExpressionLowering:
     """Lowers the expressions of one function, at the place where its builder stands."""
 
     def __init__(
-        self, builder: Any, entry: Any, variables: dict[str, list[Any]], marks: Any, functions: Functions
+        self, builder: Any, entry: Any, variables: dict[str, list[Any]], shared: Any, functions: Functions
     ) -> None:
         self.builder, self.entry, self.variables = builder, entry, variables
-        self.marks, self.functions = marks, functions
+        self.marks, self.functions = shared, functions  # the marks are the first of what is shared
 
     def leaves(self, expression: Expression) -> list[Any]:
         """The leaves of the expression's value."""
@@ -81,9 +82,20 @@ class ExpressionLowering:
         if expression.name == "undecided":
             self.mark(UNDECIDED)
             return [ir.Constant(BOOLEAN, 1)]
+        if expression.name == "state":
+            return self._state_leaves(slice(len(leaves(expression.type))))
         marks = self.builder.load(self.marks, typ=INTEGER)
         self.builder.store(ir.Constant(INTEGER, 0), self.marks)
         return [marks]
+
+    def _state_leaves(self, which: slice) -> list[Any]:
+        """Some leaves of the state, the only ones to be loaded."""
+        _, *kinds = self.functions.shared.elements
+        places = [
+            (shared_place(self.builder, self.marks, self.functions.shared, 1 + number), kind)
+            for number, kind in list(enumerate(kinds))[which]
+        ]
+        return [self.builder.load(place, typ=kind) for place, kind in places]
 
     def _operation(self, expression: Operation) -> list[Any]:
         first = expression.operands[0]
@@ -114,6 +126,9 @@ class ExpressionLowering:
     def _part(self, expression: Part) -> list[Any]:
         whole = expression.whole.type
         assert isinstance(whole, Tuple)
+        of_state = _leaves_of_state(expression)
+        if of_state is not None:
+            return self._state_leaves(of_state)
         return self.leaves(expression.whole)[part_leaves(whole, expression.place)]
 
     def _partat(self, expression: PartAt) -> list[Any]:
@@ -180,3 +195,23 @@ class ExpressionLowering:
             self.builder.gep(pointer, [place, ir.Constant(ir.IntType(32), number)], source_etype=element)
             for number in range(len(kinds))
         ]
+
+
+def shared_place(builder: Any, pointer: Any, kind: Any, place: int) -> Any:
+    """Where a leaf lies of what functions share, whose type is `kind`."""
+    first = ir.Constant(ir.IntType(32), 0)
+    return builder.gep(pointer, [first, ir.Constant(ir.IntType(32), place)], source_etype=kind)
+
+
+def _leaves_of_state(expression: Expression) -> slice | None:
+    """Which of the state's leaves are those of a part of it, or of a part of that; None for a part of anything else."""
+    if isinstance(expression, Question) and expression.name == "state":
+        return slice(0, len(leaves(expression.type)))
+    if not isinstance(expression, Part):
+        return None
+    whole = _leaves_of_state(expression.whole)
+    if whole is None:
+        return None
+    assert isinstance(expression.whole.type, Tuple)
+    part = part_leaves(expression.whole.type, expression.place)
+    return slice(whole.start + part.start, whole.start + part.stop)

@@ -1,8 +1,9 @@
 """From typed functions to LLVM's IR: each becomes a function of the machine's, and so does what it calls.
 
 A value is a list of its leaves (types.py). Variables lie on the machine's stack, from where LLVM takes them into
-registers. Every function has one parameter more than its source: a pointer to the marks of the call (questions.py), by
-which code deep inside tells the caller what has happened.
+registers. Every function has one parameter more than its source: a pointer to what the call's functions share
+(questions.py). That is its marks, by which code deep inside tells the caller what has happened, and behind them the
+leaves of the state.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir
 
-from raytruth.reference_tracer.compiler.lowered_expressions import ExpressionLowering
+from raytruth.reference_tracer.compiler.lowered_expressions import ExpressionLowering, shared_place
 from raytruth.reference_tracer.compiler.machine_operations import INTEGER, POINTER, machine_type, reserved
 from raytruth.reference_tracer.compiler.questions import STACK_IS_FULL
 from raytruth.reference_tracer.compiler.types import leaves
@@ -29,34 +30,39 @@ if TYPE_CHECKING:
         TypedFunction,
         While,
     )
+    from raytruth.reference_tracer.compiler.types import Type
 
 
-def lowered_module(entry_points: list[TypedFunction], capacity: int) -> str:
+def lowered_module(entry_points: list[TypedFunction], capacity: int, state: Type | None = None) -> str:
     """The IR of a module in which these functions can be called from outside; stacks hold `capacity` elements.
 
-    They take their arguments leaf by leaf, return nothing to the source, and to the caller the marks.
+    They take the state and their arguments leaf by leaf, return nothing to the source, and to the caller the marks.
     """
-    lowering = _ModuleLowering(capacity)
+    lowering = _ModuleLowering(capacity, state)
     for entry_point in entry_points:
         lowering.entry_point(entry_point)
     return str(lowering.module)
 
 
 class _ModuleLowering:
-    def __init__(self, capacity: int) -> None:
+    def __init__(self, capacity: int, state: Type | None) -> None:
         self.module: Any = ir.Module()
         self.capacity = capacity
+        kinds = [machine_type(leaf) for leaf in leaves(state)] if state else []
+        self.shared: Any = ir.LiteralStructType([INTEGER, *kinds])
         self.functions: dict[TypedFunction, Any] = {}
 
     def entry_point(self, function: TypedFunction) -> None:
         lowered = self.function(function)
-        parameters = lowered.function_type.args[1:]
+        _, *state = self.shared.elements
+        parameters = [*state, *lowered.function_type.args[1:]]
         outside: Any = ir.Function(self.module, ir.FunctionType(INTEGER, parameters), function.name)
         builder: Any = ir.IRBuilder(outside.append_basic_block())
-        marks = reserved(builder, INTEGER)
-        builder.store(ir.Constant(INTEGER, 0), marks)
-        builder.call(lowered, [marks, *outside.args])
-        builder.ret(builder.load(marks, typ=INTEGER))
+        shared = reserved(builder, self.shared)
+        for place, value in enumerate([ir.Constant(INTEGER, 0), *outside.args[: len(state)]]):
+            builder.store(value, shared_place(builder, shared, self.shared, place))
+        builder.call(lowered, [shared, *outside.args[len(state) :]])
+        builder.ret(builder.load(shared, typ=INTEGER))
 
     def function(self, function: TypedFunction) -> Any:
         """The machine's function; made once."""
@@ -82,12 +88,11 @@ class _FunctionLowering:
         self.entry: Any = ir.IRBuilder(lowered.append_basic_block("entry"))
         self.builder: Any = ir.IRBuilder(lowered.append_basic_block("body"))
         self.lowered = lowered
-        self.marks = lowered.args[0]
         self.variables = {
             name: [self._variable(machine_type(leaf)) for leaf in leaves(kind)]
             for name, kind in function.variables.items()
         }
-        self.expressions = ExpressionLowering(self.builder, self.entry, self.variables, self.marks, module)
+        self.expressions = ExpressionLowering(self.builder, self.entry, self.variables, lowered.args[0], module)
 
     def lower(self) -> None:
         arguments = iter(self.lowered.args[1:])

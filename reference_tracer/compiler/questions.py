@@ -1,4 +1,5 @@
-"""What compiled functions can ask that their arguments do not say: the answer to a comparison that numbers leave open.
+"""What compiled functions can ask that their arguments do not say: the answer to a comparison that numbers leave open,
+and the state of the call.
 
 Numbers that are pairs of floats may overlap, and a comparison of them then has no answer of their own. A function that
 compares asks `undecided`. The answer takes a branch, any, and the call is marked: what it computes from there on is one
@@ -6,6 +7,8 @@ of several things that might be. Who called learns of it by `marks_taken`.
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 
 class UndecidedError(Exception):
@@ -20,6 +23,15 @@ def undecided() -> bool:
 def marks_taken() -> int:
     """In compiled code: which marks have been set since this was asked last, 0 for none; it takes them away."""
     return 0
+
+
+def state() -> Any:
+    """In compiled code: what all functions of a program share, which its entry points take before their arguments.
+
+    It lies in memory, so that functions deep inside have it without its being passed to them: arrays that all of them
+    write to, and numbers that none of them changes. In interpreted code there is none: raises NotImplementedError.
+    """
+    raise NotImplementedError
 
 
 STACK_IS_FULL = 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from types import FunctionType, ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from raytruth.reference_tracer.compiler.exact_errors import product_error
 from raytruth.reference_tracer.compiler.machine_code import has_fused_product
@@ -17,7 +17,7 @@ from raytruth.reference_tracer.compiler.overloads import (
     operator_name,
     truth,
 )
-from raytruth.reference_tracer.compiler.questions import marks_taken, undecided
+from raytruth.reference_tracer.compiler.questions import marks_taken, state, undecided
 from raytruth.reference_tracer.compiler.typed_tree import (
     Build,
     Call,
@@ -35,7 +35,7 @@ from raytruth.reference_tracer.compiler.typed_tree import (
 from raytruth.reference_tracer.compiler.types import Array, Boolean, Float, Integer, Stack, Tuple, Type, shown, type_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from raytruth.reference_tracer.compiler.typed_tree import TypedFunction
 
@@ -43,17 +43,21 @@ QUESTIONS: dict[Any, Type] = {undecided: Boolean(), marks_taken: Integer()}
 UNKNOWN = "the compiler does not know this"
 
 
+class Functions(Protocol):
+    """What an expression asks of the program that it is in."""
+
+    table: dict[str, Any]
+    state: Type | None
+
+    def instance(self, function: Function, kinds: tuple[Type, ...]) -> TypedFunction:
+        """The typed function."""
+
+
 class ExpressionTyper:
     """Types the expressions of one function, whose variables' types so far are in `variables`."""
 
-    def __init__(
-        self,
-        function: Function,
-        variables: dict[str, Type],
-        table: dict[str, Any],
-        instance: Callable[[Function, tuple[Type, ...]], TypedFunction],
-    ) -> None:
-        self.function, self.variables, self.table, self.instance = function, variables, table, instance
+    def __init__(self, function: Function, variables: dict[str, Type], functions: Functions) -> None:
+        self.function, self.variables, self.functions = function, variables, functions
 
     def typed(self, node: ast.expr) -> Expression:
         """The typed expression. Raises NotCompilableError."""
@@ -182,6 +186,8 @@ class ExpressionTyper:
             return Question(function.__name__, QUESTIONS[function])
         if function is product_error and has_fused_product():
             return self._applied("product_error", arguments)
+        if function is state and not arguments and self.functions.state is not None:
+            return Question(state.__name__, self.functions.state)
         if callable(function) and function in FUNCTIONS:
             return self._applied(FUNCTIONS[function], arguments)
         if isinstance(function, FunctionType):
@@ -190,12 +196,15 @@ class ExpressionTyper:
             raise self.function.error(node, "the compiler does not know what is called here")
         if len(arguments) != len(function.parameters):
             raise self.function.error(node, f"{function.definition.name} takes {len(function.parameters)} arguments")
-        typed = self.instance(function, tuple(argument.type for argument in arguments))
+        typed = self.functions.instance(function, tuple(argument.type for argument in arguments))
         return Call(typed, tuple(arguments), typed.returns)
 
     def _applied(self, name: str, operands: Sequence[Expression]) -> Expression:
         return applied(
-            name, operands, self.table, lambda function, same: self.called(function, same, self.function.definition)
+            name,
+            operands,
+            self.functions.table,
+            lambda function, same: self.called(function, same, self.function.definition),
         )
 
     def _meaning(self, node: ast.expr) -> Any:

@@ -36,10 +36,14 @@ if TYPE_CHECKING:
 
 
 class Typer:
-    """Types functions, each once for the types that it is called with; `table` holds the arithmetic's operations."""
+    """Types functions, each once for the types that it is called with; `table` holds the arithmetic's operations.
 
-    def __init__(self, table: Mapping[str, Any]) -> None:
+    `state` is the type of what the question of that name gives.
+    """
+
+    def __init__(self, table: Mapping[str, Any], state: Type | None = None) -> None:
         self.table = dict(table)
+        self.state = state
         self.typed: dict[tuple[Function, tuple[Type, ...]], TypedFunction | None] = {}
 
     def instance(self, function: Function, kinds: tuple[Type, ...]) -> TypedFunction:
@@ -60,7 +64,7 @@ class _FunctionTyper:
         self.parameters = dict(zip(function.parameters, kinds, strict=True))
         self.variables = dict(self.parameters)
         self.returns: Type | None = None
-        self.expressions = ExpressionTyper(function, self.variables, typer.table, typer.instance)
+        self.expressions = ExpressionTyper(function, self.variables, typer)
 
     def typed(self) -> TypedFunction:
         definition = self.function.definition

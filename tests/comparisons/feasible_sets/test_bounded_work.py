@@ -14,12 +14,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from raytruth.comparisons.error_models.error_model import ErrorModel
-from raytruth.comparisons.feasible_sets import pixel_outcomes
+from raytruth.comparisons.feasible_sets import linked_pixels, pixel_outcomes
 from raytruth.comparisons.feasible_sets.declared_outcomes import bounds_of
 from raytruth.comparisons.feasible_sets.feasible_pixel import MOST_OUTCOMES, PixelEvaluator, UndecidableError
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
 from raytruth.comparisons.feasible_sets.rounded_rays import LinkedRays, PlainRays
+from raytruth.comparisons.feasible_sets.tape_rays import TapeRays
 from raytruth.comparisons.renderers.mitsuba.adapter import mitsuba_scalar
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.rendering import render
@@ -34,9 +35,9 @@ pytestmark = pytest.mark.clause("VER-2")
 FLOAT64 = ErrorModel("float64", 51)
 UNLIMITED = 10**9
 CORNERS = 8
-WAYS = {"plain": PlainRays, "linked": LinkedRays}
+WAYS = {"plain": PlainRays, "linked": LinkedRays, "tape": TapeRays}
 # As much as 41 rays take that look at two panes 16 times a pixel: some follow all of them, and some but the first.
-PANES_WORK = {"plain": 6_000, "linked": 150_000}
+PANES_WORK = {"plain": 6_000, "linked": 150_000, "tape": 200_000}
 
 
 @cache
@@ -120,7 +121,7 @@ def test_a_pixel_that_takes_too_long_counts_as_merged_and_holds_the_truth(monkey
     whole = feasible_set(scene, FLOAT64)
     assert not whole.merged.any()
     monkeypatch.setattr(pixel_outcomes, "PLAIN_WORK", PANES_WORK["plain"] // 4)
-    monkeypatch.setattr(pixel_outcomes, "LINKED_WORK", PANES_WORK["linked"] // 4)
+    monkeypatch.setattr(linked_pixels, "LINKED_WORK", PANES_WORK["linked"] // 4)
     for model in (FLOAT64, mitsuba_scalar().error_model):
         cut = feasible_set(scene, model)
         low, high = cut.hull()
@@ -142,7 +143,7 @@ def test_a_pixel_that_takes_too_long_without_a_bound_is_not_judged(monkeypatch: 
     assert radiance_bound(scene) is None
     assert (feasible_set(scene, FLOAT64).outcomes == 1).all()
     monkeypatch.setattr(pixel_outcomes, "PLAIN_WORK", 100)
-    monkeypatch.setattr(pixel_outcomes, "LINKED_WORK", 1000)
+    monkeypatch.setattr(linked_pixels, "LINKED_WORK", 1000)
     assert (feasible_set(scene, FLOAT64).outcomes == 0).all()
 
 

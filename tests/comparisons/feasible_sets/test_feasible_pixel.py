@@ -9,6 +9,7 @@ from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.feasible_sets.feasible_pixel import MOST_OUTCOMES, PixelEvaluator, UndecidableError
 from raytruth.comparisons.feasible_sets.radiance_bound import radiance_bound
 from raytruth.comparisons.feasible_sets.rounded_rays import LinkedRays, PlainRays
+from raytruth.comparisons.feasible_sets.tape_rays import TapeRays
 from tests.reference_tracer.small_scenes import lamp, library_scene, small_scene, sphere
 
 if TYPE_CHECKING:
@@ -18,9 +19,9 @@ pytestmark = pytest.mark.clause("VER-2")
 WHITE = {"emission": {"radiance": (1.0, 1.0, 1.0)}}
 
 
-@pytest.fixture(params=[PlainRays, LinkedRays], autouse=True)
+@pytest.fixture(params=[PlainRays, LinkedRays, TapeRays], autouse=True)
 def follow(request: pytest.FixtureRequest) -> Any:
-    """Both ways of following rays, one after the other."""
+    """All ways of following rays, one after the other."""
     return request.param
 
 

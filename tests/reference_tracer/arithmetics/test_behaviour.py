@@ -70,6 +70,27 @@ def test_a_helpers_operations_are_rounded_and_its_comparisons_decided_as_all_oth
     assert literals["number_0_0625"] == 0.0625
 
 
+def half_lit(scene: Any, light: Any, distance_squared: Any) -> float:
+    return 0.5 * inner_attenuation(scene, light, distance_squared)
+
+
+inner_attenuation = tenth
+
+
+@pytest.mark.parametrize("arithmetic", [FLOAT, FLOAT64], ids=lambda arithmetic: arithmetic.name)
+def test_a_function_around_another_calls_the_sources_or_a_behaviours_own(arithmetic: Arithmetic) -> None:
+    around = Behaviour(around={"attenuation": half_lit}, name="half the light")
+    assert render(LIT, arithmetic, around)[0, 0, 0] == 0.5
+    assert render(LIT, arithmetic, merged(around, BRIGHTER))[0, 0, 0] == 1.0625 / 2
+    with pytest.raises(ValueError, match="both say what inner_attenuation is"):
+        merged(around, around)
+
+
+def test_a_function_around_one_that_a_scene_does_not_require_is_left_out() -> None:
+    around = Behaviour(around={"attenuation": half_lit})
+    assert kernel_source({Feature.SPHERES}, around) == kernel_source({Feature.SPHERES}, IDEAL)
+
+
 def test_a_helper_that_no_function_calls_is_left_out() -> None:
     unused = Behaviour(helpers=(strengthened,), constants={"strength": 0.25})
     assert kernel_source(set(Feature), unused) == kernel_source(set(Feature), IDEAL)

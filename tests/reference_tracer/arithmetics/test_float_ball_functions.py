@@ -15,10 +15,11 @@ from raytruth.reference_tracer.arithmetics.float_ball_functions import (
     LOG_TWO_HIGH,
     LOG_TWO_LOW,
     exp,
+    log,
     power,
     tan,
 )
-from raytruth.reference_tracer.arithmetics.float_balls import LARGEST, UNDERFLOW, Ball
+from raytruth.reference_tracer.arithmetics.float_balls import LARGEST, UNDERFLOW, Ball, rounded_ball
 from tests.reference_tracer.arithmetics.ball_draws import (
     NUMBER_OF_BALLS,
     ROUNDOFFS,
@@ -50,10 +51,16 @@ def exact_power(x: Any, y: Any) -> Any:
     return arb(0) if x <= 0 else x**y
 
 
+def exact_logarithm(x: Any, _: Any) -> Any:
+    """Of the part that is positive."""
+    return x.log() if x > 0 else arb(math.nan)
+
+
 FUNCTIONS: dict[str, tuple[Callable[[Ball, Ball, float], Ball], Callable[[Any, Any], Any]]] = {
     "exp": (lambda a, _, roundoff: exp(a, roundoff), lambda x, _: x.exp()),
     "tan": (lambda a, _, roundoff: tan(a, roundoff), lambda x, _: x.tan()),
     "power": (power, exact_power),
+    "log": (lambda a, _, roundoff: rounded_ball(log(a), roundoff), exact_logarithm),
 }
 
 
@@ -115,7 +122,7 @@ def test_a_radius_is_at_most_a_twentieth_larger_than_arbs(name: str) -> None:
     """Beside some roundings.
 
     The power x^y has those of the logarithm too, which are y·|log x| times as many. The tangent has those of the ends,
-    which it makes larger by x·tan'(x)/tan(x).
+    which it makes larger by x·tan'(x)/tan(x); so has the logarithm, by 1/log(x).
     """
     compared = 0
     for (a, b), roundoff in zip(arguments(name, 14), drawn_roundoffs(16, NUMBER_OF_BALLS), strict=True):
@@ -132,6 +139,8 @@ def test_a_radius_is_at_most_a_twentieth_larger_than_arbs(name: str) -> None:
             roundings = 16.0 * (1.0 + (b.middle + b.radius) * abs(math.log(a.middle)))
         elif name == "tan" and a.middle:
             roundings = 16.0 + 8.0 * abs(2.0 * a.middle / math.sin(2.0 * a.middle))
+        elif name == "log" and size:
+            roundings = 8.0 + 8.0 / size
         else:
             roundings = 8.0
         compared += 1

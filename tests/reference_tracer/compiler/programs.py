@@ -11,7 +11,8 @@ from raytruth.reference_tracer.compiler.types import Array, Float, Integer
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from raytruth.reference_tracer.compiler.types import Type
+    from raytruth.reference_tracer.compiler.loading import LoadedFunction
+    from raytruth.reference_tracer.compiler.types import Tuple, Type
 
 NUMBER, INTEGER = Float(64), Integer()
 NUMBERS, INTEGERS = Array(NUMBER), Array(INTEGER)
@@ -25,12 +26,13 @@ def program(
     names: Mapping[str, Any] = MATH,
     operations: Mapping[str, Callable[..., Any]] | None = None,
     capacity: int = 8,
+    state: Tuple | None = None,
 ) -> Program:
     """A program whose one entry point is `run`."""
-    return Program(text, FILE, names, {"run": kinds}, operations or {}, capacity)
+    return Program(text, FILE, names, {"run": kinds}, operations or {}, capacity, state)
 
 
-def compiled(text: str, *kinds: Type, names: Mapping[str, Any] = MATH, **more: Any) -> Callable[..., None]:
+def compiled(text: str, *kinds: Type, names: Mapping[str, Any] = MATH, **more: Any) -> LoadedFunction:
     """The function `run` of the text, as machine code."""
     return program(text, *kinds, names=names, **more).compiled()["run"]
 

@@ -56,6 +56,18 @@ def test_threads_run_the_same_function_side_by_side() -> None:
     assert results.tolist() == [i * i for i in range(4000)]
 
 
+def test_a_function_has_its_first_arguments_once_for_many_calls() -> None:
+    text = "def run(results, factors, first, second):\n    results[first] = factors[first] * second"
+    results, factors = np.zeros(2), np.array([3.0, 4.0])
+    run = compiled(text, NUMBERS, NUMBERS, INTEGER, NUMBER).bound(results, factors)
+    run(0, 2.0)
+    factors[1] = 5.0
+    run(1, 2.0)
+    assert results.tolist() == [6.0, 10.0]
+    with pytest.raises(ValueError, match="shorter"):
+        run(1)
+
+
 def test_functions_of_one_name_from_two_texts_stay_apart() -> None:
     results = np.zeros(1)
     one, other = (

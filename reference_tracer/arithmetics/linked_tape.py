@@ -1,0 +1,303 @@
+"""The tape of linked numbers: linked balls (linked_balls.py) in arrays, to be compiled.
+
+A number is a place on the tape. The larger its place, the younger it is, so that one sweep down the tape finds the
+derivatives of a number by all that it was made from. Each number was made from two others at most. Balls are of floats
+and computed with without a roundoff (float_balls.py), so that what float64 rounds is in them. What the renderer rounds
+is in a number's error: with the roundoff u its exact value x becomes x·(1 + δ) for any |δ| ≤ u, which is an error of
+u·|x| at most and makes derivatives larger by 1 ± u.
+
+The first places hold constants, for good. Behind them is what one ray needs, forgotten with the next one. What a
+number may be between two rays is kept apart, linear in symbols (linked_tape_rows.py).
+
+These functions find the tape in the state of the call (compiler/questions.py), and so they only run compiled.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from raytruth.reference_tracer.arithmetics.float_balls import (
+    ANYTHING,
+    LARGEST,
+    OUTWARD,
+    UNDERFLOW,
+    UNIT_ROUNDOFF,
+    Ball,
+    add,
+    hull,
+    lower,
+    mul,
+    rounded_ball,
+    sub,
+    upper,
+)
+from raytruth.reference_tracer.compiler.questions import state
+
+ZERO = Ball(0.0, 0.0)
+ONE = Ball(1.0, 0.0)
+MINUS_ONE = Ball(-1.0, 0.0)
+
+NOTHING = -1
+"""In place of a link: there is none, or none that matters, since the number there is exact."""
+ROW = -2
+"""In place of the first link: the number is linear in symbols, as the row says whose number stands in the second's."""
+
+# Places of `counts`.
+HEIGHT, SYMBOLS, ROWS, ROW_SLOPES, FIRST_REACHED, WORK, IS_FULL = range(7)
+"""How many numbers, symbols, rows and slopes of rows there are; a constant that the sweep has reached; the work done;
+and 1 if something had no room."""
+NUMBER_OF_COUNTS = 7
+
+
+class LinkedNumber(NamedTuple):
+    """A number: where it stands on the tape."""
+
+    place: int
+
+
+class Capacity(NamedTuple):
+    """How much there is room for."""
+
+    constants: int
+    """As many numbers are constants."""
+    numbers: int
+    symbols: int
+    rows: int
+    row_slopes: int
+
+
+class LinkedTape(NamedTuple):
+    """Arrays, those from `centers` to `derivatives` with an element for each number."""
+
+    capacity: Capacity
+    counts: Any
+    centers: Any
+    """Balls: the values where nothing is rounded and nothing uncertain."""
+    ranges: Any
+    """Balls that hold all values."""
+    errors: Any
+    """Floats: what rounding may add when the number is made; of a constant, how far it may be from its centre."""
+    links: Any
+    """Whole numbers, two each: the places of what it was made from."""
+    slopes: Any
+    """Balls, two each: the derivatives by these, over all of their values."""
+    is_tight: Any
+    """Whole numbers: 1 where the range is the tight enclosure already."""
+    derivatives: Any
+    """Balls: of what is swept by each number. Between two sweeps all of them are 0."""
+    reached: Any
+    """Whole numbers, for each constant: the place of the next one that the sweep has reached, and behind the last such
+    one how many constants there are. NOTHING for those that it has not reached."""
+    by_symbol: Any
+    """Balls: the derivatives by the symbols that the last sweep has found."""
+    row_centers: Any
+    row_ranges: Any
+    row_starts: Any
+    """Where the slopes of each row begin, and how many there are: its derivatives by the first symbols."""
+    row_widths: Any
+    row_slopes: Any
+
+
+class Link(NamedTuple):
+    """What a number is made from: the place of another, and a ball that holds the derivative by it."""
+
+    place: int
+    slope: Ball
+
+
+NO_LINK = Link(NOTHING, ZERO)
+
+
+def link_to(number: LinkedNumber, slope: Ball) -> Link:
+    """A link; none to what is exact, which changes nothing."""
+    tape = state().tape
+    is_exact = tape.links[number.place, 0] == NOTHING and tape.errors[number.place] == 0.0
+    return Link(NOTHING if is_exact else number.place, slope)
+
+
+def made(center: Ball, holds: Ball, error: float, first: Link, second: Link) -> LinkedNumber:
+    """A new number on the tape; where that has no room any other one, and the tape is full."""
+    tape = state().tape
+    place = tape.counts[HEIGHT]
+    if place >= tape.capacity.numbers:
+        tape.counts[IS_FULL] = 1
+        return LinkedNumber(tape.capacity.numbers - 1)
+    if first.place == NOTHING:
+        first, second = second, first
+    tape.counts[HEIGHT] = place + 1
+    tape.counts[WORK] = tape.counts[WORK] + 1
+    tape.centers[place] = center
+    tape.ranges[place] = holds
+    tape.errors[place] = error
+    tape.links[place, 0] = first.place
+    tape.links[place, 1] = second.place
+    tape.slopes[place, 0] = first.slope
+    tape.slopes[place, 1] = second.slope
+    tape.is_tight[place] = 0
+    return LinkedNumber(place)
+
+
+def rounded(center: Ball, exact: Ball, first: Link, second: Link) -> LinkedNumber:
+    """The result of one operation of the renderer's, whose exact values lie in `exact`; what is exactly 0 stays so."""
+    if exact.middle == 0.0 and exact.radius == 0.0:
+        return made(ZERO, ZERO, 0.0, NO_LINK, NO_LINK)
+    roundoff = state().roundoff
+    error = magnitude(exact) * roundoff * OUTWARD + UNDERFLOW if roundoff > 0.0 else 0.0
+    return made(center, rounded_ball(exact, roundoff), error, first, second)
+
+
+def number_of_ball(ball: Ball) -> LinkedNumber:
+    """A number of which only this is known: anything in the ball."""
+    return made(Ball(ball.middle, 0.0), ball, ball.radius, NO_LINK, NO_LINK)
+
+
+def magnitude(ball: Ball) -> float:
+    """The largest size of a number in the ball, but for a rounding."""
+    return abs(ball.middle) + ball.radius
+
+
+def is_finite(ball: Ball) -> bool:
+    """Whether the ball has two ends."""
+    return abs(ball.middle) <= LARGEST and ball.radius <= LARGEST
+
+
+def reach(place: int, derivative: Ball) -> None:
+    """Add to the derivative by the number at a place."""
+    tape = state().tape
+    known = tape.derivatives[place]
+    if known.middle != 0.0 or known.radius != 0.0:  # also where it is unknown
+        tape.derivatives[place] = add(known, derivative, 0.0)
+        return
+    tape.derivatives[place] = derivative
+    if place < tape.capacity.constants and tape.reached[place] == NOTHING:
+        tape.reached[place] = tape.counts[FIRST_REACHED]
+        tape.counts[FIRST_REACHED] = place
+
+
+def sweep_back(top: int) -> float:
+    """From the derivatives of a sum of numbers by these, none above `top`, to those by the symbols; the youngest first.
+
+    Gives what all roundings and errors of constants together may have added. By the mean value theorem the sum differs
+    from its value at the centres of all of its errors and symbols by no more than the derivatives over all of their
+    values, times their sizes (linked_balls.py). Each step of the bound takes a handful of roundings, for which it is
+    made larger.
+    """
+    tape = state().tape
+    for symbol in range(tape.counts[SYMBOLS]):
+        tape.by_symbol[symbol] = ZERO
+    error = 0.0
+    place = top
+    while place >= tape.capacity.constants:
+        derivative = tape.derivatives[place]
+        if derivative.middle != 0.0 or derivative.radius != 0.0:
+            tape.derivatives[place] = ZERO
+            error = (error + _through(place, derivative)) * OUTWARD
+        place = place - 1
+    return (error + _through_constants()) * OUTWARD
+
+
+def _through(place: int, derivative: Ball) -> float:
+    """From the derivative by one number to those by what it was made from; what its own error adds."""
+    tape = state().tape
+    first, second = tape.links[place, 0], tape.links[place, 1]
+    if first == ROW:
+        _through_row(second, derivative)
+        return 0.0
+    size = tape.errors[place]
+    added = magnitude(derivative) * size * OUTWARD + UNDERFLOW if size != 0.0 else 0.0
+    if first != NOTHING:
+        if size != 0.0:
+            derivative = rounded_ball(derivative, state().roundoff)
+        tape.counts[WORK] = tape.counts[WORK] + 1
+        reach(first, mul(derivative, tape.slopes[place, 0], 0.0))
+        if second != NOTHING:
+            tape.counts[WORK] = tape.counts[WORK] + 1
+            reach(second, mul(derivative, tape.slopes[place, 1], 0.0))
+    return added
+
+
+def _through_row(row: int, derivative: Ball) -> None:
+    """From the derivative by a number that is linear in symbols to those by the symbols.
+
+    That is `add` and `mul` of float_balls.py for a factor without a radius, with one bound for both roundings, since
+    most of the time goes by here: what is not finite comes out as not finite, too.
+    """
+    tape = state().tape
+    start, width = tape.row_starts[row], tape.row_widths[row]
+    tape.counts[WORK] = tape.counts[WORK] + width
+    for symbol in range(width):
+        slope = tape.row_slopes[start + symbol]
+        if slope != 0.0:
+            known = tape.by_symbol[symbol]
+            product = derivative.middle * slope
+            total = known.middle + product
+            lost = UNIT_ROUNDOFF * (abs(product) + abs(total))
+            radius = known.radius + derivative.radius * abs(slope) + lost
+            tape.by_symbol[symbol] = Ball(total, radius * OUTWARD + UNDERFLOW)
+
+
+def _through_constants() -> float:
+    """What the errors of the constants add that a sweep has reached."""
+    tape = state().tape
+    error = 0.0
+    place = tape.counts[FIRST_REACHED]
+    while place < tape.capacity.constants:
+        if tape.errors[place] != 0.0:
+            error = (error + magnitude(tape.derivatives[place]) * tape.errors[place]) * OUTWARD + UNDERFLOW
+        tape.derivatives[place] = ZERO
+        following = tape.reached[place]
+        tape.reached[place] = NOTHING
+        place = following
+    tape.counts[FIRST_REACHED] = place
+    return error
+
+
+def around(center: Ball, error: float) -> Ball:
+    """A ball around a centre that holds what the symbols, each from -1 to 1, and the error may make of it."""
+    tape = state().tape
+    radius = error + center.radius
+    for symbol in range(tape.counts[SYMBOLS]):
+        radius = (radius + magnitude(tape.by_symbol[symbol])) * OUTWARD
+    found = Ball(center.middle, radius * OUTWARD)
+    return found if is_finite(found) else ANYTHING
+
+
+def common(a: Ball, b: Ball) -> Ball:
+    """What two balls that both hold a value have in common; the first one where the second says nothing."""
+    if not is_finite(b):
+        return a
+    if not is_finite(a):
+        return b
+    least, most = lower(a), upper(a)
+    least_of_b, most_of_b = lower(b), upper(b)
+    if least_of_b <= least and most <= most_of_b:
+        return a
+    if least <= least_of_b and most_of_b <= most:
+        return b
+    return hull(max(least, least_of_b), min(most, most_of_b))
+
+
+def box_of(number: LinkedNumber) -> Ball:
+    """A tight ball that holds all values of a number; remembered as its range."""
+    tape = state().tape
+    place = number.place
+    if tape.is_tight[place] == 0 and tape.links[place, 0] >= 0:
+        reach(place, ONE)
+        error = sweep_back(place)
+        tape.ranges[place] = common(tape.ranges[place], around(tape.centers[place], error))
+        tape.is_tight[place] = 1
+    found: Ball = tape.ranges[place]
+    return found
+
+
+def difference(a: LinkedNumber, b: LinkedNumber) -> Ball:
+    """A tight ball that holds all values of a - b before rounding."""
+    tape = state().tape
+    of_b = tape.ranges[b.place]
+    if tape.links[b.place, 0] == NOTHING and of_b.radius == 0.0:
+        return sub(box_of(a), of_b, 0.0)
+    reach(a.place, ONE)
+    reach(b.place, MINUS_ONE)
+    error = sweep_back(max(a.place, b.place))
+    center = sub(tape.centers[a.place], tape.centers[b.place], 0.0)
+    return common(sub(tape.ranges[a.place], of_b, 0.0), around(center, error))
