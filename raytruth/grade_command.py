@@ -103,8 +103,8 @@ def grade(
     if out is not None:
         expect_folder(out)
     program = _program(command, renderer_file)
-    opened, path = _opened(assignment)
-    due = _stage(opened, stage)
+    opened, path = opened_assignment(assignment)
+    due = stage_named(opened, stage)
     topics = scenes_of(opened, path.parent, seed, due)
     if not topics:
         raise UsageError(f"--stage: nothing is due at the stage {quoted(str(stage))}.")
@@ -160,7 +160,8 @@ def _program(command: tuple[str, ...], file: Path | None) -> ProgramRenderer:
     return program
 
 
-def _opened(name_or_path: str) -> tuple[Assignment, Path]:
+def opened_assignment(name_or_path: str) -> tuple[Assignment, Path]:
+    """An assignment and its file. Raises UsageError with every mistake of it."""
     try:
         path = assignment_path(name_or_path)
         return load_assignment(path), path
@@ -168,7 +169,8 @@ def _opened(name_or_path: str) -> tuple[Assignment, Path]:
         raise UsageError(str(error)) from error
 
 
-def _stage(assignment: Assignment, name: str | None) -> Stage | None:
+def stage_named(assignment: Assignment, name: str | None) -> Stage | None:
+    """The stage of an assignment. Raises UsageError where there is none of this name."""
     if name is None:
         return None
     known = {stage.id: stage for stage in assignment.stages}
