@@ -13,7 +13,7 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
-from typing import IO, TYPE_CHECKING
+from typing import IO, TYPE_CHECKING, Any
 
 from raytruth.comparisons.processes.isolation import run_isolated
 from raytruth.comparisons.records.renderings import RendererError
@@ -176,18 +176,18 @@ def _untar(path: Path, unpacked: _Unpacked) -> None:
         start = file.read(6)
     opener = next((it for magic, it in _OPENERS.items() if start.startswith(magic)), None)
     most = unpacked.most_bytes + SUBMISSION_ROOM.files * _BYTES_OF_HEADERS
-    with opener(path, "rb") if opener else path.open("rb") as content:
-        # A header may say that gigabytes of names follow, and tarfile reads them into memory: so they are counted here.
-        with tarfile.open(fileobj=_Counted(content, most, path.name), mode="r|") as archive:  # type: ignore[call-overload]  # it has all of a stream that is used
-            for member in archive:
-                if member.isdir():
-                    unpacked.place(member.name)
-                    continue
-                stream = archive.extractfile(member) if member.isreg() else None
-                if stream is None:
-                    unpacked.refuse(member.name, _NO_FILE)
-                else:
-                    unpacked.add(member.name, stream, is_executable=bool(member.mode & stat.S_IXUSR))
+    content = opener(path, "rb") if opener else path.open("rb")
+    # A header may say that gigabytes of names follow, and tarfile reads them into memory: so they are counted here.
+    counted: Any = _Counted(content, most, path.name)  # it has all of a file that is used
+    with content, tarfile.open(fileobj=counted, mode="r|") as archive:
+        for member in archive:
+            stream = archive.extractfile(member) if member.isreg() else None
+            if member.isdir():
+                unpacked.place(member.name)
+            elif stream is None:
+                unpacked.refuse(member.name, _NO_FILE)
+            else:
+                unpacked.add(member.name, stream, is_executable=bool(member.mode & stat.S_IXUSR))
 
 
 class _Counted:
