@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
 
+from raytruth.bundles import opened_assignment
 from raytruth.comparisons.classes.archives import EXPORT_ROOM, ArchiveError, is_archive, unpack
+from raytruth.comparisons.classes.bundle import Service  # noqa: TC001 - cyclopts reads annotations at run time
 from raytruth.comparisons.classes.class_files import kept_pictures
 from raytruth.comparisons.classes.class_run import class_rows, plan_of
 from raytruth.comparisons.classes.class_scenes import make_expectations
@@ -26,7 +28,7 @@ from raytruth.comparisons.grading.grade import Occasion
 from raytruth.comparisons.records.class_results import CLASS_FILE, STUDENTS_FOLDER, ClassResults
 from raytruth.comparisons.records.grade_results import GRADE_FILE
 from raytruth.errors import UsageError
-from raytruth.grade_command import opened_assignment, stage_named
+from raytruth.grade_command import stage_named
 from raytruth.options import AsJson, expect_folder
 from raytruth.output import print_json, print_table, progress, say, tell
 from raytruth.reference_tracer.storage.cache import cache_folder
@@ -45,6 +47,7 @@ from raytruth.reports.class_tables import (
 )
 from raytruth.reports.grade_pages import STUDENT_PAGE, TEACHER_PAGE, grade_page
 from raytruth.reports.grade_text import points
+from raytruth.reports.service_results import service_results
 from raytruth.scenes.validation import problems_of
 
 if TYPE_CHECKING:
@@ -57,6 +60,7 @@ if TYPE_CHECKING:
     from raytruth.comparisons.records.grade_results import Grade
 
 NOT_RUN = 1
+RESULTS_FILE = "results.json"
 GRADER_ERROR = 3
 # As many as the smallest machine has processors; the programs that are graded have processes of their own beside them.
 WORKERS = 2
@@ -74,6 +78,7 @@ def grade_all(
     seed: int = 0,
     workers: int = WORKERS,
     scheduler: str | None = None,
+    results_for: Service | None = None,
     regrade: bool = False,
     fresh: bool = False,
     as_json: AsJson = False,
@@ -103,6 +108,8 @@ def grade_all(
         How many submissions are graded side by side on this machine.
     scheduler
         The address of a Dask scheduler, as tcp://host:8786: its workers grade in place of this machine.
+    results_for
+        Write each student's results.json as gradescope, prairielearn or github-classroom reads it.
     regrade
         Grade again what another state of raytruth has graded, and show which grades move, and why.
     fresh
@@ -125,7 +132,7 @@ def grade_all(
         if not found:
             raise UsageError(f"{submissions}: expected a folder or an archive for each student, found none.")
         plan = plan_of(found, out, opened, topics, Occasion(stage, attempt), regrade=regrade, fresh=fresh)
-        rows = _graded(plan, workers, scheduler)
+        rows = _graded(plan, workers, scheduler, results_for)
     results = _results(plan, rows)
     _write(results, out)
     _tell_results(results, out, as_json=as_json)
@@ -164,7 +171,7 @@ def _opened_submissions(path: Path, out: Path) -> Iterator[Path]:
         yield folder
 
 
-def _graded(plan: ClassPlan, workers: int, scheduler: str | None) -> dict[str, ClassRow]:
+def _graded(plan: ClassPlan, workers: int, scheduler: str | None, service: Service | None) -> dict[str, ClassRow]:
     """The rows of all submissions, by their folders, with a line for each that is done. Raises UsageError."""
     rows = dict(plan.kept)
     if rows:
@@ -182,7 +189,7 @@ def _graded(plan: ClassPlan, workers: int, scheduler: str | None) -> dict[str, C
             start = time.perf_counter()
             left = len(plan.left)
             for number, row in enumerate(
-                class_rows(plan, pool, count, lambda *it: _write_pages(plan.out, *it)), start=1
+                class_rows(plan, pool, count, lambda *it: _write_pages(plan.out, service, *it)), start=1
             ):
                 rows[row.folder] = row
                 seconds = (time.perf_counter() - start) / number * (left - number)
@@ -198,16 +205,18 @@ def _workers(count: int, scheduler: str | None) -> AbstractContextManager[tuple[
 
 def _told(row: ClassRow) -> str:
     score = "no grade" if row.score is None else f"{points(row.score)} of {points(row.maximum)} points"
-    return f"{row.student}: {score} ({what_explains(row)})."
+    return f"{row.student}: {score} ({what_explains(row).rstrip('.')})."
 
 
 def _duration(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 90 else f"{seconds / 60:.0f} min"
 
 
-def _write_pages(out: Path, folder: str, grade: Grade) -> None:
+def _write_pages(out: Path, service: Service | None, folder: str, grade: Grade) -> None:
     """A grade and its two pages; only the student's holds no solution."""
     own = out / STUDENTS_FOLDER / folder
+    if service is not None:
+        write_whole(own / RESULTS_FILE, service_results(service, for_student(grade)))
     write_whole(own / GRADE_FILE, grade.model_dump_json(indent=1))
     write_whole(own / STUDENT_PAGE, grade_page(for_student(grade), for_teacher=False))
     write_whole(own / TEACHER_PAGE, grade_page(grade, for_teacher=True))
@@ -230,8 +239,9 @@ def _write(results: ClassResults, out: Path) -> None:
     """Each file whole or not at all."""
     write_whole(out / CLASS_FILE, results.model_dump_json(indent=1))
     write_whole(out / CLASS_CSV, class_csv(results))
-    write_whole(out / MOODLE_CSV, moodle_csv(results))
-    write_whole(out / CANVAS_CSV, canvas_csv(results))
+    if any(row.identifier.isdecimal() for row in results.rows):  # as these two number students
+        write_whole(out / MOODLE_CSV, moodle_csv(results))
+        write_whole(out / CANVAS_CSV, canvas_csv(results))
     write_whole(out / CLASS_PAGE, class_page(results))
 
 

@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from raytruth.bundles import opened_assignment, write_service_bundle
+from raytruth.comparisons.classes.bundle import Service  # noqa: TC001 - cyclopts reads annotations at run time
 from raytruth.comparisons.grading.assignment_file import (
     READY_FOLDER,
     STARTING,
-    AssignmentError,
-    assignment_path,
     json_schema,
-    load_assignment,
 )
 from raytruth.comparisons.grading.assignment_scenes import scenes_of
 from raytruth.comparisons.grading.feedback import for_student
@@ -25,6 +24,7 @@ from raytruth.comparisons.grading.grade import Occasion, grade_submission
 from raytruth.comparisons.processes.interruption import start_worker
 from raytruth.comparisons.records.grade_results import GRADE_FILE
 from raytruth.errors import UsageError
+from raytruth.kept_grades import begin_results, has_grade, has_score
 from raytruth.options import AsJson, expect_folder
 from raytruth.output import print_json, progress, say
 from raytruth.programs import programs_of
@@ -61,6 +61,7 @@ def grade(
     jobs: int | None = None,
     init: Annotated[Path | None, Parameter(show_default=False)] = None,
     schema: Annotated[bool, Parameter(negative="")] = False,
+    bundle: Service | None = None,
     as_json: AsJson = False,
 ) -> int:
     """Grade one program: points, and a proof of what explains the pixels that are wrong.
@@ -91,6 +92,9 @@ def grade(
         Write an assignment with each key explained to this file, and nothing else.
     schema
         Print the JSON Schema that assignments obey, and nothing else.
+    bundle
+        Write what a teacher uploads to this service (gradescope, prairielearn, github-classroom), with the assignment
+        whose name or path stands in place of a command, to the folder of --out, and nothing else.
     as_json
         Print the whole grade, with the solutions, as one JSON document instead of what a student is told.
     """
@@ -99,6 +103,8 @@ def grade(
         return 0
     if init is not None:
         return _start(init)
+    if bundle is not None:
+        return write_service_bundle(bundle, command, assignment, out)
     _check_numbers(attempt, jobs, seed)
     if out is not None:
         expect_folder(out)
@@ -108,6 +114,7 @@ def grade(
     topics = scenes_of(opened, path.parent, seed, due)
     if not topics:
         raise UsageError(f"--stage: nothing is due at the stage {quoted(str(stage))}.")
+    begin_results(gradescope, opened, Occasion(stage, attempt))
     with progress("Grading"):
         graded = _graded(program, opened, topics, Occasion(stage, attempt), jobs or os.cpu_count() or 1)
     _write(graded, out, gradescope, junit)
@@ -137,8 +144,13 @@ def _graded(
 
 
 def _write(graded: Grade, out: Path | None, gradescope: Path | None, junit: Path | None) -> None:
-    """Each file whole or not at all; only grade.json and the teacher's page hold what is not for students."""
+    """Each file whole or not at all; only grade.json and the teacher's page hold what is not for students.
+
+    Where raytruth itself failed, grades of an earlier run stay as they are.
+    """
     told = for_student(graded)
+    if graded.status == "grader_error":
+        out, gradescope = None if has_grade(out) else out, None if has_score(gradescope) else gradescope
     if out is not None:
         out.mkdir(parents=True, exist_ok=True)
         write_whole(out / GRADE_FILE, graded.model_dump_json(indent=1))
@@ -158,15 +170,6 @@ def _program(command: tuple[str, ...], file: Path | None) -> ProgramRenderer:
     commands = [f"submission={shlex.join(command)}"] if command else []
     (program,) = programs_of(commands, [file] if file is not None else []).values()
     return program
-
-
-def opened_assignment(name_or_path: str) -> tuple[Assignment, Path]:
-    """An assignment and its file. Raises UsageError with every mistake of it."""
-    try:
-        path = assignment_path(name_or_path)
-        return load_assignment(path), path
-    except AssignmentError as error:
-        raise UsageError(str(error)) from error
 
 
 def stage_named(assignment: Assignment, name: str | None) -> Stage | None:

@@ -128,9 +128,7 @@ def class_rows(
         for done in wait(running, return_when=FIRST_COMPLETED).done:
             folder, start = running.pop(done)
             failure = done.exception()
-            outcome = (
-                done.result() if failure is None else Outcome("grader_error", f"raytruth itself failed: {failure}")
-            )
+            outcome = done.result() if failure is None else Outcome("grader_error", str(failure))
             yield _kept(plan, folder, outcome, time.perf_counter() - start, write_pages)
 
 
@@ -145,7 +143,7 @@ def _kept(
             told = f"It could not be graded again, so that its grade is as before: {row.reason}"
             return before.row.model_copy(update={"reason": told})
         if row.score != before.row.score:
-            why = why_moved(earlier, outcome.grade)
+            why = why_moved(earlier if before.row.score is not None else None, outcome.grade)
             row = row.model_copy(update={"move": Move(before=before.row.score, after=row.score, why=why)})
     (plan.out / STUDENTS_FOLDER / folder).mkdir(parents=True, exist_ok=True)
     keep_pictures(plan.out, folder, outcome.pictures or {})
