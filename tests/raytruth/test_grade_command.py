@@ -77,3 +77,22 @@ def test_one_starts_from_a_commented_assignment_and_the_schema_is_printed(
     assert (tmp_path / "mine.toml").read_text() == (READY_FOLDER / "whitted.toml").read_text()
     assert "is there already" in refusal(capsys, "grade", "--init", "mine.toml")
     assert document(capsys, "grade", "--schema")["title"] == "raytruth assignment"
+
+
+@pytest.mark.clause("GRD-5", "GRD-7")
+def test_a_run_that_raytruth_fails_in_leaves_a_result_without_a_score_and_never_replaces_a_grade(
+    command: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise MemoryError("no room")
+
+    files = ("--out", "graded", "--gradescope", "results.json")
+    with monkeypatch.context() as broken:
+        broken.setattr("raytruth.grade_command.grade_submission", fail)
+        assert run(capsys, "grade", *files, *command)[0] == 3
+    assert "score" not in json.loads((tmp_path / "results.json").read_text())
+    assert run(capsys, "grade", *files, *command)[0] == 1
+    kept = {path: path.read_bytes() for path in (tmp_path / "results.json", tmp_path / "graded" / "grade.json")}
+    monkeypatch.setattr("raytruth.comparisons.grading.grade.graded_picture", int)  # of a program: an error
+    assert run(capsys, "grade", *files, *command)[0] == 3
+    assert {path: path.read_bytes() for path in kept} == kept
