@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from concurrent.futures import FIRST_COMPLETED, wait
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -118,26 +117,24 @@ def class_rows(
     often a cluster has to begin it again.
     """
     waiting = list(reversed(plan.left))
-    running: dict[Future[Outcome], tuple[str, float]] = {}
+    running: dict[Future[Outcome], str] = {}
     while waiting or running:
         # A few more than can be worked at, so that nobody waits for the next; not all, so that little is dropped.
         while waiting and len(running) < 2 * workers:
             folder = waiting.pop()
             job = Job(plan.folders[folder], plan.assignment, plan.topics, plan.occasion)
-            running[pool.submit(apart, graded_here, job)] = folder, time.perf_counter()
+            running[pool.submit(apart, graded_here, job)] = folder
         for done in wait(running, return_when=FIRST_COMPLETED).done:
-            folder, start = running.pop(done)
+            folder = running.pop(done)
             failure = done.exception()
             outcome = done.result() if failure is None else Outcome("grader_error", str(failure))
-            yield _kept(plan, folder, outcome, time.perf_counter() - start, write_pages)
+            yield _kept(plan, folder, outcome, write_pages)
 
 
-def _kept(
-    plan: ClassPlan, folder: str, outcome: Outcome, seconds: float, write_pages: Callable[[str, Grade], None]
-) -> ClassRow:
+def _kept(plan: ClassPlan, folder: str, outcome: Outcome, write_pages: Callable[[str, Grade], None]) -> ClassRow:
     """Write all of a submission, its row last. An earlier grade stays where raytruth itself has failed now."""
     before, earlier = kept_row(plan.out, folder), kept_grade(plan.out, folder)
-    row = _row(plan, folder, outcome, seconds)
+    row = _row(plan, folder, outcome)
     if before is not None and before.given == plan.given[folder]:
         if outcome.status == "grader_error" and before.row.status != "grader_error":
             told = f"It could not be graded again, so that its grade is as before: {row.reason}"
@@ -174,7 +171,7 @@ def _without_points(plan: ClassPlan, row: ClassRow) -> Grade:
     )
 
 
-def _row(plan: ClassPlan, folder: str, outcome: Outcome, seconds: float) -> ClassRow:
+def _row(plan: ClassPlan, folder: str, outcome: Outcome) -> ClassRow:
     submission, grade = plan.folders[folder], outcome.grade
     failed = outcome.status == "grader_error"
     reason = outcome.reason
@@ -192,5 +189,5 @@ def _row(plan: ClassPlan, folder: str, outcome: Outcome, seconds: float) -> Clas
         maximum=plan.maximum,
         topics={it.id: it.points for it in grade.clauses} if grade is not None and graded else {},
         group=group_of(grade) if grade is not None and graded else _WORDS[outcome.status],
-        seconds=seconds,
+        seconds=outcome.seconds,
     )

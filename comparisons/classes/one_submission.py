@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal
@@ -47,6 +48,8 @@ class Outcome:
     grade: Grade | None = None
     pictures: Mapping[str, NDArray[np.float32]] | None = None
     """The telling pixels of each scene's picture, for comparing submissions with one another."""
+    seconds: float = 0.0
+    """From unpacking to the grade."""
 
 
 class _InThisProcess(Executor):
@@ -70,6 +73,12 @@ class _InThisProcess(Executor):
 
 def graded_here(job: Job) -> Outcome:
     """Grade a submission in this process; what it has unpacked and built is gone afterwards."""
+    start = time.perf_counter()
+    outcome = _outcome(job)
+    return replace(outcome, seconds=time.perf_counter() - start)
+
+
+def _outcome(job: Job) -> Outcome:
     with TemporaryDirectory(prefix="raytruth-") as name:
         try:
             program = prepared(job.submission, Path(name), job.assignment)
