@@ -5,13 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.classes.bundle import BundleError, Service, write_bundle
+from raytruth.comparisons.classes.bundle import BundleError, write_bundle
 from raytruth.comparisons.grading.assignment_file import AssignmentError, assignment_path, load_assignment
 from raytruth.errors import UsageError
 from raytruth.output import say
 
 if TYPE_CHECKING:
     from raytruth.comparisons.grading.assignment import Assignment
+    from raytruth.comparisons.records.class_results import Service
 
 
 def opened_assignment(name_or_path: str) -> tuple[Assignment, Path]:

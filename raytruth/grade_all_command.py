@@ -13,7 +13,6 @@ from pydantic import ValidationError
 
 from raytruth.bundles import opened_assignment
 from raytruth.comparisons.classes.archives import EXPORT_ROOM, ArchiveError, is_archive, unpack
-from raytruth.comparisons.classes.bundle import Service  # noqa: TC001 - cyclopts reads annotations at run time
 from raytruth.comparisons.classes.class_files import kept_pictures
 from raytruth.comparisons.classes.class_run import class_rows, plan_of
 from raytruth.comparisons.classes.class_scenes import make_expectations
@@ -25,7 +24,7 @@ from raytruth.comparisons.grading.assignment_file import STARTING
 from raytruth.comparisons.grading.assignment_scenes import scenes_of
 from raytruth.comparisons.grading.feedback import for_student
 from raytruth.comparisons.grading.grade import Occasion
-from raytruth.comparisons.records.class_results import CLASS_FILE, STUDENTS_FOLDER, ClassResults
+from raytruth.comparisons.records.class_results import CLASS_FILE, STUDENTS_FOLDER, ClassResults, Service
 from raytruth.comparisons.records.grade_results import GRADE_FILE
 from raytruth.errors import UsageError
 from raytruth.grade_command import stage_named

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from raytruth.bundles import opened_assignment, write_service_bundle
-from raytruth.comparisons.classes.bundle import Service  # noqa: TC001 - cyclopts reads annotations at run time
 from raytruth.comparisons.grading.assignment_file import (
     READY_FOLDER,
     STARTING,
@@ -22,6 +21,7 @@ from raytruth.comparisons.grading.assignment_scenes import scenes_of
 from raytruth.comparisons.grading.feedback import for_student
 from raytruth.comparisons.grading.grade import Occasion, grade_submission
 from raytruth.comparisons.processes.interruption import start_worker
+from raytruth.comparisons.records.class_results import Service  # noqa: TC001 - as Path
 from raytruth.comparisons.records.grade_results import GRADE_FILE
 from raytruth.errors import UsageError
 from raytruth.kept_grades import begin_results, has_grade, has_score
@@ -118,13 +118,7 @@ def grade(
     with progress("Grading"):
         graded = _graded(program, opened, topics, Occasion(stage, attempt), jobs or os.cpu_count() or 1)
     _write(graded, out, gradescope, junit)
-    if as_json:
-        print_json(graded.model_dump(mode="json"))
-    else:
-        say("\n".join(grade_lines(for_student(graded))))
-    if graded.status == "grader_error":
-        return GRADER_ERROR
-    return 0 if graded.score == graded.maximum else FAILED
+    return _tell(graded, as_json=as_json)
 
 
 def _graded(
@@ -160,6 +154,17 @@ def _write(graded: Grade, out: Path | None, gradescope: Path | None, junit: Path
         write_whole(gradescope, gradescope_results(told))
     if junit is not None:
         write_whole(junit, grade_junit(told))
+
+
+def _tell(graded: Grade, *, as_json: bool) -> int:
+    """Print the grade; returns the exit status."""
+    if as_json:
+        print_json(graded.model_dump(mode="json"))
+    else:
+        say("\n".join(grade_lines(for_student(graded))))
+    if graded.status == "grader_error":
+        return GRADER_ERROR
+    return 0 if graded.score == graded.maximum else FAILED
 
 
 def _program(command: tuple[str, ...], file: Path | None) -> ProgramRenderer:

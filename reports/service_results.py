@@ -10,7 +10,7 @@ from raytruth.reports.gradescope import gradescope_results
 from raytruth.reports.wording import printable
 
 if TYPE_CHECKING:
-    from raytruth.comparisons.classes.bundle import Service
+    from raytruth.comparisons.records.class_results import Service
     from raytruth.comparisons.records.grade_results import Grade, TopicGrade
 
 

@@ -6,7 +6,7 @@ import json
 import shutil
 import uuid
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING
 
 from raytruth.reference_tracer.storage.whole_files import write_whole
 
@@ -14,9 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from raytruth.comparisons.grading.assignment import Assignment
+    from raytruth.comparisons.records.class_results import Service
 
-Service = Literal["gradescope", "prairielearn", "github-classroom"]
-SERVICES: tuple[Service, ...] = get_args(Service)
 _TEMPLATES = Path(__file__).with_name("bundles")
 _ASSIGNMENT_FOLDERS: dict[Service, str] = {
     "gradescope": ".",

@@ -8,6 +8,8 @@ from raytruth.comparisons.records.results import Record
 
 CLASS_FILE = "class.json"
 STUDENTS_FOLDER = "students"
+Service = Literal["gradescope", "prairielearn", "github-classroom"]
+"""What grades by scripts of a teacher's, and reads results of its own kind."""
 
 
 class Move(Record):
