@@ -1,8 +1,9 @@
 """How often `raytruth grade-all` calls independent programs alike: the example tracers, right and with equal mistakes.
 
-They were written apart from one another, each to the specification. Each pair is compared as if the two were alone, so
-that nothing that they have in common counts as common: a class makes fewer false matches. Needs `make` in
-examples/tracers; takes some minutes.
+They were written apart from one another, each to the specification. What the mistakes are called in the catalogue is
+taken as told, as a diagnosis tells it; and once it is not, as if the catalogue lacked them. Each pair is compared as if the
+two were alone, so that nothing that they have in common counts as common: a class makes fewer false matches. Needs the
+languages' compilers; takes some minutes.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.classes.likeness import likenesses, telling_pixels
+from raytruth.comparisons.classes.likeness import Explained, likenesses, telling_pixels
 from raytruth.comparisons.grading.assignment_file import assignment_path, load_assignment
 from raytruth.comparisons.grading.assignment_scenes import scenes_of
 from raytruth.comparisons.grading.submission import as_graded, submitted
@@ -46,6 +47,8 @@ MISTAKES: dict[str, dict[str, str]] = {
     "no falloff": {"1 / divisor": "1", "1.0 / divisor": "1.0"},
 }
 """What is written otherwise wherever it stands."""
+KNOWN_AS = {"one over the distance": ("one_over_distance",), "no falloff": ("no_falloff",)}
+"""The faults of the catalogue that these are."""
 FLOAT32 = {
     "float32": [],
     "float32 with fast maths": ["-ffast-math", "-mfma"],
@@ -86,15 +89,26 @@ def variants() -> list[Variant]:
     return found + [Variant("cpp", mistake, arithmetic) for mistake in MISTAKES for arithmetic in FLOAT32]
 
 
-def pictures_of(variant: Variant, folder: Path) -> dict[str, NDArray[np.float32]]:
-    """The telling pixels of each scene of the assignment."""
+Pictures = dict[str, "NDArray[np.float32]"]
+
+
+def pictures_of(variant: Variant, folder: Path) -> dict[str, Pictures]:
+    """The telling pixels of each scene of the assignment, where its mistake is known, and where it is not."""
     path = assignment_path(ASSIGNMENT)
     assignment = load_assignment(path)
     program = as_graded(program_of_file(variant.made(folder)), assignment)
     declared = output_model_of(program.declaration)
     scenes = {scene.name: scene for of_topic in scenes_of(assignment, path.parent).values() for scene in of_topic}
     given = {name: submitted(program, scene).image for name, scene in scenes.items()}
-    return {name: telling_pixels(scenes[name], image, declared) for name, image in given.items() if image is not None}
+    told = {"known": Explained(faults=KNOWN_AS.get(variant.mistake, ())), "unknown": Explained()}
+    return {
+        kind: {
+            name: telling_pixels(scenes[name], image, declared, it)
+            for name, image in given.items()
+            if image is not None
+        }
+        for kind, it in told.items()
+    }
 
 
 def kind_of(first: Variant, second: Variant) -> str:
@@ -112,8 +126,10 @@ def main() -> None:
     for first, second in combinations(pictures, 2):
         if first.language == second.language:  # one program with one line otherwise is no independent one
             continue
-        found = likenesses({first.name: pictures[first], second.name: pictures[second]})
-        rows.setdefault(kind_of(first, second), []).append(max((it.alike / it.looked_at for it in found), default=0.0))
+        for known in ("known", "unknown"):
+            found = likenesses({first.name: pictures[first][known], second.name: pictures[second][known]})
+            share = max((it.alike / it.looked_at for it in found), default=0.0)
+            rows.setdefault(f"{kind_of(first, second)}, {known}", []).append(share)
     if "--json" in sys.argv:
         print(json.dumps(rows, indent=1))
         return

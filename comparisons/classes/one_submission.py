@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal
 
 from raytruth.comparisons.classes.archives import ArchiveError
-from raytruth.comparisons.classes.likeness import telling_pixels
+from raytruth.comparisons.classes.likeness import explained_by, telling_pixels
 from raytruth.comparisons.classes.preparation import BuildError, NoProgramError, prepared
 from raytruth.comparisons.grading.grade import grade_submission
 from raytruth.comparisons.grading.scene_grading import GradedPicture
@@ -92,8 +92,9 @@ def _outcome(job: Job) -> Outcome:
         grade = grade_submission(program, job.assignment, job.topics, job.occasion, worker)
     grade = grade.model_copy(update={"submission": job.submission.student})
     declared = output_model_of(program.declaration)
+    told = explained_by(grade, declared)
     pictures = {
-        name: telling_pixels(it.scene, it.submitted.image, declared)
+        name: telling_pixels(it.scene, it.submitted.image, declared, told)
         for name, it in worker.pictures.items()
         if it.submitted.image is not None
     }
