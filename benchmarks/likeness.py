@@ -1,9 +1,9 @@
 """How often `raytruth grade-all` calls independent programs alike: the example tracers, right and with equal mistakes.
 
 They were written apart from one another, each to the specification. What the mistakes are called in the catalogue is
-taken as told, as a diagnosis tells it; and once it is not, as if the catalogue lacked them. Each pair is compared as if the
-two were alone, so that nothing that they have in common counts as common: a class makes fewer false matches. Needs the
-languages' compilers; takes some minutes.
+taken as told, as a diagnosis tells it; and once it is not, as if the catalogue lacked them. Each pair is compared as if
+the two were alone, so that nothing that they have in common counts as common: a class makes fewer false matches. Needs
+the languages' compilers; takes some minutes.
 """
 
 from __future__ import annotations

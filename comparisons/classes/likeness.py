@@ -2,8 +2,8 @@
 
 A pixel tells something only where it is neither what the truth becomes in the submission's format, nor what the
 mistake that is told of the submission gives there: then it shows an unknown mistake, or the order of operations. And
-only if few have it: many share a common mistake. Of two submissions those telling pixels are counted that both have with
-the same bits.
+only if few have it: many share a common mistake. Of two submissions those telling pixels are counted that both have
+with the same bits.
 """
 
 from __future__ import annotations
