@@ -7,7 +7,6 @@ import io
 import json
 import re
 import zipfile
-from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -79,7 +78,9 @@ def given_digest(submission: Submission, asked: str) -> str:
 
 def asked_digest(assignment: Assignment, scenes: Iterable[str], occasion: Occasion) -> str:
     """Of an assignment, its scenes as JSON, and the occasion."""
-    text = json.dumps([assignment.model_dump(mode="json"), sorted(scenes), asdict(occasion)], sort_keys=True)
+    text = json.dumps(
+        [assignment.model_dump(mode="json"), sorted(scenes), occasion.stage, occasion.attempt], sort_keys=True
+    )
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -135,12 +136,12 @@ def kept_pictures(out: Path, folder: str) -> dict[str, NDArray[np.float32]]:
 
 
 def _files(paths: Iterable[Path]) -> Iterator[tuple[str, Path]]:
-    """The files of a submission with their names, no more than may be unpacked."""
+    """The files of a submission with their names, as far as there is room: one with more is refused in any case."""
+    count = size = 0
     for path in paths:
-        if path.is_dir() and not path.is_symlink():
-            for number, file in enumerate(files_below(path)):
-                if number > SUBMISSION_ROOM.files:
-                    break
-                yield file.relative_to(path).as_posix(), file
-        else:
-            yield path.name, path
+        is_folder = path.is_dir() and not path.is_symlink()
+        for file in files_below(path) if is_folder else [path]:
+            count, size = count + 1, size + file.lstat().st_size
+            if count > SUBMISSION_ROOM.files or size > SUBMISSION_ROOM.bytes:
+                return
+            yield file.relative_to(path).as_posix() if is_folder else path.name, file

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.classes.archives import is_archive
@@ -16,6 +16,8 @@ METADATA = "submission_metadata.yml"
 """What Gradescope puts beside the folders of an export."""
 # A line for each of a few facts of some thousand students.
 _MOST_METADATA = 1 << 24
+# Longer names than people have; of a group all of them.
+_LONGEST_NAME = 400
 
 # "Ada Lovelace_1234_assignsubmission_file_" is a folder or, before a file's name, a file.
 _MOODLE = re.compile(r"(?P<name>.+?)_(?P<identifier>\d+)_assignsubmission_file_?(?P<file>.*)", re.DOTALL)
@@ -42,10 +44,23 @@ def submissions_in(folder: Path) -> list[Submission]:
 
     Hidden files, and files that are no archives and of no platform's layout, are no submissions.
     """
+    return [
+        replace(it, student=_shown(it.student), identifier=_shown(it.identifier), email=_shown(it.email))
+        for it in _found_in(folder)
+    ]
+
+
+def _shown(text: str) -> str:
+    """A name as text of a length that can be shown: of files it may be any bytes, of metadata a megabyte."""
+    return text[:_LONGEST_NAME].encode(errors="surrogateescape").decode(errors="replace")
+
+
+def _found_in(folder: Path) -> list[Submission]:
+    """The submissions with names as they are."""
     entries = sorted(path for path in folder.iterdir() if not path.name.startswith((".", "__MACOSX")))
     folders = [path for path in entries if path.is_dir()]
     if len(entries) == 1 and folders and (entries[0] / METADATA).is_file():
-        return submissions_in(entries[0])
+        return _found_in(entries[0])
     if (folder / METADATA).is_file():
         return list(_of_gradescope(folder))
     for pattern in (_MOODLE, _CANVAS):

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 import pytest
@@ -92,3 +93,14 @@ def test_metadata_that_is_none_leaves_the_folders_names(text: str, tmp_path: Pat
     made(tmp_path, "submission_11/a.py")
     (tmp_path / "submission_metadata.yml").write_text(text)
     assert [it.student for it in submissions_in(tmp_path)] == ["submission_11"]
+
+
+def test_names_of_any_bytes_and_lengths_become_text_that_can_be_written(tmp_path: Path) -> None:
+    (tmp_path / os.fsdecode(b"ada\xff")).mkdir()
+    assert [it.student for it in submissions_in(tmp_path)] == ["ada\ufffd"]
+    (tmp_path / "x" / "submission_1").mkdir(parents=True)
+    name = "n" * 1_000_000
+    metadata = f"submission_1:\n  :submitters:\n  - :name: {name}\n"
+    (tmp_path / "x" / "submission_metadata.yml").write_text(metadata)
+    (long,) = submissions_in(tmp_path / "x")
+    assert len(long.student) == 400
