@@ -53,6 +53,13 @@ COMMANDS = {
         "Try attacks on each sandbox that submissions can run in here, and tell what held.",
         "Takes some seconds. Exit status 1 if none can be used. Example: `raytruth sandboxes --json`",
     ),
+    "grade-all": (
+        "raytruth.grade_all_command:grade_all",
+        "Grade a class: a table, a page for each student and one for the class, and what Moodle and Canvas take.",
+        "Exit status 0 if all are graded, 1 if some could not be run, 3 where raytruth itself failed on some. "
+        "Examples: `raytruth grade-all submissions --assignment mine.toml --build make`, "
+        "`raytruth grade-all moodle-export.zip --run './tracer {scene} {output}.pfm' --out graded`",
+    ),
     "scenes": ("raytruth.scenes_commands:app", "List, show, validate and export scenes.", ""),
     "renderers": (
         "raytruth.renderers_command:renderers",

@@ -11,21 +11,21 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from raytruth.bundles import opened_assignment, write_service_bundle
 from raytruth.comparisons.attacks.ladder import Choice  # noqa: TC001 - as Path
 from raytruth.comparisons.grading.assignment_file import (
     READY_FOLDER,
     STARTING,
-    AssignmentError,
-    assignment_path,
     json_schema,
-    load_assignment,
 )
 from raytruth.comparisons.grading.assignment_scenes import scenes_of
 from raytruth.comparisons.grading.feedback import for_student
 from raytruth.comparisons.grading.grade import Occasion, grade_submission
 from raytruth.comparisons.processes.interruption import start_worker
+from raytruth.comparisons.records.class_results import Service  # noqa: TC001 - as Path
 from raytruth.comparisons.records.grade_results import GRADE_FILE
 from raytruth.errors import UsageError
+from raytruth.kept_grades import begin_results, has_grade, has_score
 from raytruth.options import AsJson, expect_folder
 from raytruth.output import print_json, progress, say
 from raytruth.programs import programs_of
@@ -65,6 +65,7 @@ def grade(
     sandbox_read: Annotated[tuple[Path, ...], Parameter(negative="")] = (),
     init: Annotated[Path | None, Parameter(show_default=False)] = None,
     schema: Annotated[bool, Parameter(negative="")] = False,
+    bundle: Service | None = None,
     as_json: AsJson = False,
 ) -> int:
     """Grade one program: points, and a proof of what explains the pixels that are wrong.
@@ -100,6 +101,9 @@ def grade(
         Write an assignment with each key explained to this file, and nothing else.
     schema
         Print the JSON Schema that assignments obey, and nothing else.
+    bundle
+        Write what a teacher uploads to this service (gradescope, prairielearn, github-classroom), with the assignment
+        whose name or path stands in place of a command, to the folder of --out, and nothing else.
     as_json
         Print the whole grade, with the solutions, as one JSON document instead of what a student is told.
     """
@@ -108,15 +112,18 @@ def grade(
         return 0
     if init is not None:
         return _start(init)
+    if bundle is not None:
+        return write_service_bundle(bundle, command, assignment, out)
     _check_numbers(attempt, jobs, seed)
     if out is not None:
         expect_folder(out)
     program = _program(command, renderer_file)
-    opened, path = _opened(assignment)
-    due = _stage(opened, stage)
+    opened, path = opened_assignment(assignment)
+    due = stage_named(opened, stage)
     topics = scenes_of(opened, path.parent, seed, due)
     if not topics:
         raise UsageError(f"--stage: nothing is due at the stage {quoted(str(stage))}.")
+    begin_results(gradescope, opened, Occasion(stage, attempt))
     hidden = [file for file in (path, cache_folder(), out, gradescope, junit) if file is not None]
     with sandboxed(program, sandbox, hidden, sandbox_read) as (confined, held), progress("Grading"):
         graded = _graded(confined, opened, topics, Occasion(stage, attempt), jobs or os.cpu_count() or 1)
@@ -153,8 +160,13 @@ def _told(graded: Grade, *, as_json: bool) -> int:
 
 
 def _write(graded: Grade, out: Path | None, gradescope: Path | None, junit: Path | None) -> None:
-    """Each file whole or not at all; only grade.json and the teacher's page hold what is not for students."""
+    """Each file whole or not at all; only grade.json and the teacher's page hold what is not for students.
+
+    Where raytruth itself failed, grades of an earlier run stay as they are.
+    """
     told = for_student(graded)
+    if graded.status == "grader_error":
+        out, gradescope = None if has_grade(out) else out, None if has_score(gradescope) else gradescope
     if out is not None:
         out.mkdir(parents=True, exist_ok=True)
         write_whole(out / GRADE_FILE, graded.model_dump_json(indent=1))
@@ -176,15 +188,8 @@ def _program(command: tuple[str, ...], file: Path | None) -> ProgramRenderer:
     return program
 
 
-def _opened(name_or_path: str) -> tuple[Assignment, Path]:
-    try:
-        path = assignment_path(name_or_path)
-        return load_assignment(path), path
-    except AssignmentError as error:
-        raise UsageError(str(error)) from error
-
-
-def _stage(assignment: Assignment, name: str | None) -> Stage | None:
+def stage_named(assignment: Assignment, name: str | None) -> Stage | None:
+    """The stage of an assignment. Raises UsageError where there is none of this name."""
     if name is None:
         return None
     known = {stage.id: stage for stage in assignment.stages}

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
-from raytruth.comparisons.renderers.program.command import files_matching, missing_program
+from raytruth.comparisons.renderers.program.command import command_and_format, files_matching, missing_program
 from raytruth.comparisons.renderers.program.declaration_file import (
     DeclarationError,
     checked_declaration,
@@ -19,7 +18,7 @@ from raytruth.errors import UsageError
 from raytruth.scenes.wording import quoted
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
 FILE_OPTION = "--renderer-file"
 COMMAND_OPTION = "--renderer-command"
@@ -81,13 +80,6 @@ def _of_command(text: str) -> ProgramRenderer:
     except ValueError as error:
         told = f"expected words as a shell takes them, found {quoted(command)} ({error})"
         raise DeclarationError([f"{COMMAND_OPTION}: {told}."]) from error
-    data: dict[str, Any] = {"name": name.strip(), **_with_format(words)}
+    data: dict[str, Any] = {"name": name.strip(), **command_and_format(words)}
     declaration = checked_declaration(data, COMMAND_OPTION)
     return ProgramRenderer(declaration, Path.cwd(), f"{COMMAND_OPTION} {shlex.quote(text)}")
-
-
-def _with_format(words: Sequence[str]) -> dict[str, Any]:
-    """The command, and the format that an ending of {output} names, as in `{output}.pfm`."""
-    endings = {match[1] for word in words for match in re.finditer(r"\{output\}\.(\w+)", word)}
-    command = [re.sub(r"\{output\}\.\w+", "{output}", word) for word in words]
-    return {"command": command, **({"writes": min(endings)} if endings else {})}

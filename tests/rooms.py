@@ -30,6 +30,7 @@ ROOMS = (
     "comparisons/matrix",
     "comparisons/kills",
     "comparisons/grading",
+    "comparisons/classes",
     "specification",
     "reports",
     "raytruth",

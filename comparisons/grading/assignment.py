@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field
@@ -41,6 +42,15 @@ def _as_list(value: object) -> object:
     return [value] if isinstance(value, str) else value
 
 
+def _as_a_shell_takes_it(text: str) -> str:
+    try:
+        shlex.split(text)
+    except ValueError as error:
+        raise ValueError(f"expected words as a shell takes them, found {quoted(text)} ({error})") from error
+    return text
+
+
+ShellWords = Annotated[str, AfterValidator(_as_a_shell_takes_it)]
 Identifier = Annotated[str, AfterValidator(_usable_id)]
 Share = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, le=1)]
 Weight = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0, le=_MOST_POINTS)]
@@ -115,6 +125,15 @@ class Assignment(Part):
         False, description="Whether scenes have their own size; if not, at most 300 pixels, which takes seconds."
     )
     limits: Limits = Field(Limits(), description="As in a file that declares a program, for each picture.")
+    run: ShellWords = Field(
+        "",
+        description="How `raytruth grade-all` runs each submission, as './tracer {scene} {output}.pfm' in its folder; "
+        "without it, a submission says so in its file tracer.toml.",
+    )
+    build: ShellWords = Field(
+        "", description="What `raytruth grade-all` runs first in a submission's folder, as 'make'."
+    )
+    build_seconds: float = Field(300.0, strict=True, gt=0, le=86_400, description="Time for building one submission.")
     models: tuple[AllowedModel, ...] = Field(
         min_length=1, description="What a program's arithmetic may be: a pixel is right that one of them explains."
     )

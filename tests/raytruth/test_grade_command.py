@@ -103,3 +103,22 @@ def test_a_program_that_reads_its_assignment_in_a_sandbox_gets_nothing(
     (tmp_path / "black.py").write_text("print(open('one.toml').read())".replace("one.toml", str(tmp_path / "one.toml")))
     _, out, err = run(capsys, "grade", *command)
     assert ("the sandbox" in err) == ("title = " not in out)
+
+
+@pytest.mark.clause("GRD-5", "GRD-7")
+def test_a_run_that_raytruth_fails_in_leaves_a_result_without_a_score_and_never_replaces_a_grade(
+    command: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise MemoryError("no room")
+
+    files = ("--out", "graded", "--gradescope", "results.json")
+    with monkeypatch.context() as broken:
+        broken.setattr("raytruth.grade_command.grade_submission", fail)
+        assert run(capsys, "grade", *files, *command)[0] == 3
+    assert "score" not in json.loads((tmp_path / "results.json").read_text())
+    assert run(capsys, "grade", *files, *command)[0] == 1
+    kept = {path: path.read_bytes() for path in (tmp_path / "results.json", tmp_path / "graded" / "grade.json")}
+    monkeypatch.setattr("raytruth.comparisons.grading.grade.graded_picture", int)  # of a program: an error
+    assert run(capsys, "grade", *files, *command)[0] == 3
+    assert {path: path.read_bytes() for path in kept} == kept

@@ -6,7 +6,7 @@ import os
 import re
 import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -14,6 +14,13 @@ if TYPE_CHECKING:
 # Of files and folders beside a script. A tracer has dozens; where there are more, as in somebody's home, most is not of
 # the program, and to look through all of it would take longer than to render.
 MOST_LOOKED_AT = 10_000
+
+
+def command_and_format(words: Sequence[str]) -> dict[str, Any]:
+    """The keys `command` and, where an ending of {output} names it as in `{output}.pfm`, `writes` of a declaration."""
+    endings = {match[1] for word in words for match in re.finditer(r"\{output\}\.(\w+)", word)}
+    command = [re.sub(r"\{output\}\.\w+", "{output}", word) for word in words]
+    return {"command": command, **({"writes": min(endings)} if endings else {})}
 
 
 def filled_command(
