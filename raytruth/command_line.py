@@ -48,6 +48,14 @@ COMMANDS = {
         "Examples: `raytruth grade -- ./tracer {scene} {output}.pfm`, "
         "`raytruth grade --assignment shadows --renderer-file tracer.toml --out grade`",
     ),
+    "oracle": (
+        "raytruth.oracle_command:oracle",
+        "Answer single steps of a ray tracer, proven, for unit tests in any language: lines of JSON in and out.",
+        "Exit status 0 if all was answered, 2 if a line was no good question: its answer then has a key `error`. "
+        "`ask` is intersect_sphere, intersect_triangle, intersect_plane, intersect_box, reflect, refract, fresnel, "
+        "shade or primary_ray. Example: "
+        """`echo '{"ask": "fresnel", "cosine": 0.5, "index_from": 1, "index_to": 1.5}' | raytruth oracle`""",
+    ),
     "scenes": ("raytruth.scenes_commands:app", "List, show, validate and export scenes.", ""),
     "renderers": (
         "raytruth.renderers_command:renderers",

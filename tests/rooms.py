@@ -24,6 +24,7 @@ ROOMS = (
     "comparisons/feasible_sets",
     "comparisons/faults",
     "comparisons/renderers",
+    "comparisons/oracle",
     "comparisons/judgement",
     "comparisons/matrix",
     "comparisons/kills",
