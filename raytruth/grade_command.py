@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import secrets
 import shlex
 from concurrent.futures import ProcessPoolExecutor
+from datetime import UTC, datetime
 from multiprocessing import get_context
 from pathlib import Path  # noqa: TC003 - cyclopts reads annotations at run time
 from typing import TYPE_CHECKING, Annotated
@@ -19,9 +21,15 @@ from raytruth.comparisons.grading.assignment_file import (
     json_schema,
     load_assignment,
 )
-from raytruth.comparisons.grading.assignment_scenes import scenes_of
+from raytruth.comparisons.grading.assignment_scenes import private_names, scenes_of
 from raytruth.comparisons.grading.feedback import for_student
 from raytruth.comparisons.grading.grade import Occasion, grade_submission
+from raytruth.comparisons.grading.submission_metadata import (
+    SEED_BYTES,
+    MetadataError,
+    parsed_date,
+    read_submission_metadata,
+)
 from raytruth.comparisons.processes.interruption import start_worker
 from raytruth.comparisons.records.grade_results import GRADE_FILE
 from raytruth.errors import UsageError
@@ -40,6 +48,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from raytruth.comparisons.grading.assignment import Assignment, Stage
+    from raytruth.comparisons.grading.submission_metadata import SubmissionMetadata
     from raytruth.comparisons.records.grade_results import Grade
     from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
     from raytruth.scenes.scene import Scene
@@ -53,8 +62,10 @@ def grade(
     assignment: str = STARTING,
     renderer_file: Path | None = None,
     stage: str | None = None,
-    attempt: int = 1,
-    seed: int = 0,
+    attempt: int | None = None,
+    date: str | None = None,
+    seed: int | None = None,
+    submission_metadata: Path | None = None,
     out: Path | None = None,
     gradescope: Path | None = None,
     junit: Path | None = None,
@@ -76,9 +87,14 @@ def grade(
     stage
         A stage of the assignment: what is not due yet does not count.
     attempt
-        Which attempt this is, from 1: some assignments tell more at later ones.
+        Which attempt this is, from 1: some assignments tell more at later ones. By default the first.
+    date
+        At which date the student is told, as 2026-12-01T23:59:00+01:00; by default now.
     seed
-        Added to the seeds of scenes that are drawn, so that each submission may have its own.
+        Added to the seeds of scenes that are drawn. By default 0, or any if the assignment draws scenes anew.
+    submission_metadata
+        Gradescope's submission_metadata.json, which tells the attempt, the student's deadline, and the seed for
+        scenes that are drawn anew.
     out
         Write grade.json, student.html and teacher.html to this folder.
     gradescope
@@ -100,24 +116,31 @@ def grade(
     if init is not None:
         return _start(init)
     _check_numbers(attempt, jobs, seed)
+    told = _metadata(submission_metadata)
+    told_on = _date(date)
     if out is not None:
         expect_folder(out)
     program = _program(command, renderer_file)
     opened, path = _opened(assignment)
+    opened = _with_own_deadline(opened, told)
     due = _stage(opened, stage)
+    seed = _seed(opened, seed, told)
     topics = scenes_of(opened, path.parent, seed, due)
     if not topics:
         raise UsageError(f"--stage: nothing is due at the stage {quoted(str(stage))}.")
     with progress("Grading"):
-        graded = _graded(program, opened, topics, Occasion(stage, attempt), jobs or os.cpu_count() or 1)
-    _write(graded, out, gradescope, junit)
+        number = attempt or (told.attempt if told else 1)
+        occasion = Occasion(stage, number, told_on, seed, private_names(opened, seed))
+        graded = _graded(program, opened, topics, occasion, jobs or os.cpu_count() or 1)
+    shown = for_student(graded)
+    _write(graded, shown, out, gradescope, junit)
     if as_json:
         print_json(graded.model_dump(mode="json"))
     else:
-        say("\n".join(grade_lines(for_student(graded))))
+        say("\n".join(grade_lines(shown)))
     if graded.status == "grader_error":
         return GRADER_ERROR
-    return 0 if graded.score == graded.maximum else FAILED
+    return 0 if shown.score == shown.maximum else FAILED
 
 
 def _graded(
@@ -136,9 +159,8 @@ def _graded(
             pool.shutdown(cancel_futures=True)
 
 
-def _write(graded: Grade, out: Path | None, gradescope: Path | None, junit: Path | None) -> None:
+def _write(graded: Grade, told: Grade, out: Path | None, gradescope: Path | None, junit: Path | None) -> None:
     """Each file whole or not at all; only grade.json and the teacher's page hold what is not for students."""
-    told = for_student(graded)
     if out is not None:
         out.mkdir(parents=True, exist_ok=True)
         write_whole(out / GRADE_FILE, graded.model_dump_json(indent=1))
@@ -177,7 +199,35 @@ def _stage(assignment: Assignment, name: str | None) -> Stage | None:
     return known[name]
 
 
-def _check_numbers(attempt: int, jobs: int | None, seed: int) -> None:
+def _metadata(path: Path | None) -> SubmissionMetadata | None:
+    try:
+        return None if path is None else read_submission_metadata(path)
+    except MetadataError as error:
+        raise UsageError(f"--submission-metadata: {error}") from error
+
+
+def _date(text: str | None) -> datetime:
+    try:
+        return datetime.now(UTC) if text is None else parsed_date(text, "--date")
+    except MetadataError as error:
+        raise UsageError(str(error)) from error
+
+
+def _with_own_deadline(assignment: Assignment, told: SubmissionMetadata | None) -> Assignment:
+    """The assignment with the student's own deadline, if that is later."""
+    if told is None or told.due is None or assignment.deadline is None or told.due <= assignment.deadline:
+        return assignment
+    return assignment.model_copy(update={"deadline": told.due})
+
+
+def _seed(assignment: Assignment, stated: int | None, told: SubmissionMetadata | None) -> int:
+    """The seed of this submission: what is stated, else 0 for all, else its own."""
+    if stated is not None or assignment.drawn == "alike":
+        return stated or 0
+    return told.seed if told is not None else secrets.randbelow(2 ** (8 * SEED_BYTES))
+
+
+def _check_numbers(attempt: int | None, jobs: int | None, seed: int | None) -> None:
     for option, number, least in (("--attempt", attempt, 1), ("--jobs", jobs, 1), ("--seed", seed, 0)):
         if number is not None and number < least:
             raise UsageError(f"{option}: expected {least} or more, found {number}.")
