@@ -48,6 +48,12 @@ COMMANDS = {
         "Examples: `raytruth grade -- ./tracer {scene} {output}.pfm`, "
         "`raytruth grade --assignment shadows --renderer-file tracer.toml --out grade`",
     ),
+    "trace": (
+        "raytruth.trace_command:trace",
+        "Compare the ray tree that a program prints of a pixel with the right one, ray by ray.",
+        "Exit status 0 if all rays agree, 1 if one differs or the program fails. "
+        "Example: `raytruth trace glass-sphere --quick --pixel 10,7 -- ./tracer {scene} {output}.pfm`",
+    ),
     "oracle": (
         "raytruth.oracle_command:oracle",
         "Answer single steps of a ray tracer, proven, for unit tests in any language: lines of JSON in and out.",
