@@ -89,7 +89,8 @@ COMMANDS = {
         "raytruth.faults_command:faults",
         "Run the kill matrix: every known fault must be found on some scene, and no legitimate variant on any.",
         "Exit status 0 if all faults are killed and no variant is flagged, else 1. What has not changed is taken over. "
-        "Examples: `raytruth faults`, `raytruth faults --json --out results`",
+        "Examples: `raytruth faults`, `raytruth faults --json --out results`, "
+        "`raytruth faults --scene mine.json --leaderboard board.json --by Ada`",
     ),
     "spec": (
         "raytruth.spec_command:spec",
