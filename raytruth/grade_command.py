@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import os
-import secrets
-import shlex
 from concurrent.futures import ProcessPoolExecutor
-from datetime import UTC, datetime
 from multiprocessing import get_context
 from pathlib import Path  # noqa: TC003 - cyclopts reads annotations at run time
 from typing import TYPE_CHECKING, Annotated
@@ -21,21 +18,16 @@ from raytruth.comparisons.grading.assignment_file import (
     json_schema,
     load_assignment,
 )
-from raytruth.comparisons.grading.assignment_scenes import private_names, scenes_of
+from raytruth.comparisons.grading.assignment_scenes import scenes_of
 from raytruth.comparisons.grading.feedback import for_student
-from raytruth.comparisons.grading.grade import Occasion, grade_submission
-from raytruth.comparisons.grading.submission_metadata import (
-    SEED_BYTES,
-    MetadataError,
-    parsed_date,
-    read_submission_metadata,
-)
+from raytruth.comparisons.grading.grade import grade_submission
 from raytruth.comparisons.processes.interruption import start_worker
 from raytruth.comparisons.records.grade_results import GRADE_FILE
 from raytruth.errors import UsageError
+from raytruth.grading_occasion import occasion_of
 from raytruth.options import AsJson, expect_folder
 from raytruth.output import print_json, progress, say
-from raytruth.programs import programs_of
+from raytruth.programs import the_program
 from raytruth.reference_tracer.storage.cache import cache_folder
 from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.reports.grade_junit import grade_junit
@@ -48,7 +40,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from raytruth.comparisons.grading.assignment import Assignment, Stage
-    from raytruth.comparisons.grading.submission_metadata import SubmissionMetadata
+    from raytruth.comparisons.grading.grade import Occasion
     from raytruth.comparisons.records.grade_results import Grade
     from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
     from raytruth.scenes.scene import Scene
@@ -116,21 +108,13 @@ def grade(
     if init is not None:
         return _start(init)
     _check_numbers(attempt, jobs, seed)
-    told = _metadata(submission_metadata)
-    told_on = _date(date)
     if out is not None:
         expect_folder(out)
-    program = _program(command, renderer_file)
+    program = the_program("grade", command, renderer_file)
     opened, path = _opened(assignment)
-    opened = _with_own_deadline(opened, told)
-    due = _stage(opened, stage)
-    seed = _seed(opened, seed, told)
-    topics = scenes_of(opened, path.parent, seed, due)
-    if not topics:
-        raise UsageError(f"--stage: nothing is due at the stage {quoted(str(stage))}.")
+    opened, occasion = occasion_of(opened, stage, attempt, date, seed, submission_metadata)
+    topics = _due_topics(opened, path, occasion)
     with progress("Grading"):
-        number = attempt or (told.attempt if told else 1)
-        occasion = Occasion(stage, number, told_on, seed, private_names(opened, seed))
         graded = _graded(program, opened, topics, occasion, jobs or os.cpu_count() or 1)
     shown = for_student(graded)
     _write(graded, shown, out, gradescope, junit)
@@ -172,22 +156,21 @@ def _write(graded: Grade, told: Grade, out: Path | None, gradescope: Path | None
         write_whole(junit, grade_junit(told))
 
 
-def _program(command: tuple[str, ...], file: Path | None) -> ProgramRenderer:
-    """The one program to grade. Raises UsageError with every mistake of its declaration."""
-    if bool(command) == (file is not None):
-        found = "both" if command else "neither"
-        raise UsageError(f"grade: expected a command after -- or --renderer-file FILE, found {found}.")
-    commands = [f"submission={shlex.join(command)}"] if command else []
-    (program,) = programs_of(commands, [file] if file is not None else []).values()
-    return program
-
-
 def _opened(name_or_path: str) -> tuple[Assignment, Path]:
     try:
         path = assignment_path(name_or_path)
         return load_assignment(path), path
     except AssignmentError as error:
         raise UsageError(str(error)) from error
+
+
+def _due_topics(assignment: Assignment, path: Path, occasion: Occasion) -> dict[str, tuple[Scene, ...]]:
+    """The scenes that count at the occasion's stage. Raises UsageError where there are none."""
+    due = _stage(assignment, occasion.stage)
+    topics = scenes_of(assignment, path.parent, occasion.seed, due)
+    if not topics:
+        raise UsageError(f"--stage: nothing is due at the stage {quoted(str(occasion.stage))}.")
+    return topics
 
 
 def _stage(assignment: Assignment, name: str | None) -> Stage | None:
@@ -197,34 +180,6 @@ def _stage(assignment: Assignment, name: str | None) -> Stage | None:
     if name not in known:
         raise UsageError(f"--stage: the assignment has no stage {quoted(name)}; {suggestion(name, sorted(known))}")
     return known[name]
-
-
-def _metadata(path: Path | None) -> SubmissionMetadata | None:
-    try:
-        return None if path is None else read_submission_metadata(path)
-    except MetadataError as error:
-        raise UsageError(f"--submission-metadata: {error}") from error
-
-
-def _date(text: str | None) -> datetime:
-    try:
-        return datetime.now(UTC) if text is None else parsed_date(text, "--date")
-    except MetadataError as error:
-        raise UsageError(str(error)) from error
-
-
-def _with_own_deadline(assignment: Assignment, told: SubmissionMetadata | None) -> Assignment:
-    """The assignment with the student's own deadline, if that is later."""
-    if told is None or told.due is None or assignment.deadline is None or told.due <= assignment.deadline:
-        return assignment
-    return assignment.model_copy(update={"deadline": told.due})
-
-
-def _seed(assignment: Assignment, stated: int | None, told: SubmissionMetadata | None) -> int:
-    """The seed of this submission: what is stated, else 0 for all, else its own."""
-    if stated is not None or assignment.drawn == "alike":
-        return stated or 0
-    return told.seed if told is not None else secrets.randbelow(2 ** (8 * SEED_BYTES))
 
 
 def _check_numbers(attempt: int | None, jobs: int | None, seed: int | None) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
-from dataclasses import asdict
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated
@@ -19,7 +17,7 @@ from raytruth.comparisons.records.renderings import RendererError
 from raytruth.errors import UsageError
 from raytruth.options import AsJson, open_scene, parse_pixel
 from raytruth.output import print_json, say
-from raytruth.programs import programs_of
+from raytruth.programs import the_program
 from raytruth.reports.trace_text import comparison_text
 
 if TYPE_CHECKING:
@@ -60,11 +58,7 @@ def trace(
     opened = small(open_scene(scene)) if quick else open_scene(scene)
     column, row = parse_pixel(pixel)
     _expect_in_image(opened, column, row)
-    if bool(command) == (renderer_file is not None):
-        found = "both" if command else "neither"
-        raise UsageError(f"trace: expected a command after -- or --renderer-file FILE, found {found}.")
-    commands = [f"submission={shlex.join(command)}"] if command else []
-    (program,) = programs_of(commands, [] if renderer_file is None else [renderer_file]).values()
+    program = the_program("trace", command, renderer_file)
     try:
         models = load_assignment(assignment_path(assignment)).models
         with TemporaryDirectory(prefix="raytruth-") as folder:
@@ -76,7 +70,9 @@ def trace(
         return FAILED
     comparison = compared(opened, [radiance_model(model).in_scene(opened) for model in models], column, row, rays)
     if as_json:
-        print_json({"scene": opened.name, "pixel": [column, row], "rays": len(rays), **asdict(comparison)})
+        print_json(
+            {"scene": opened.name, "pixel": [column, row], "rays": len(rays), **comparison.model_dump(mode="json")}
+        )
     else:
         say(comparison_text(comparison))
     return 0 if comparison.divergence is None else FAILED

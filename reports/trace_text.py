@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from raytruth.reports.wording import plural
 
 if TYPE_CHECKING:
-    from raytruth.comparisons.grading.traces.divergence import Comparison, Divergence
+    from raytruth.comparisons.records.ray_tree_results import Comparison, Divergence
 
 KINDS = {"M": "its mirror reflection", "R": "the reflection off glass", "T": "the refracted ray"}
 WHAT = {
@@ -22,8 +22,6 @@ WHAT = {
     "color": "adds up to another colour, although all of its rays are right: look at what each of them counts",
 }
 CLAUSES = {
-    "origin": {"": "CAM", "M": "REFL", "R": "REFL", "T": "REFR"},
-    "direction": {"": "CAM", "M": "REFL", "R": "REFL", "T": "REFR"},
     "primitive": "TRAV",
     "distance": "SPH, TRI, PLANE",
     "normal": "ILL-1",
@@ -32,6 +30,7 @@ CLAUSES = {
     "extra": "TREE, REFR-5",
     "color": "REFL, REFR",
 }
+CLAUSES_OF_WAYS = {"": "CAM", "M": "REFL", "R": "REFL", "T": "REFR"}
 """Which part of docs/spec.md to read; of rays' starts and directions by the last letter of their paths."""
 
 
@@ -56,8 +55,7 @@ def in_words(path: str) -> str:
 
 
 def _told(divergence: Divergence) -> list[str]:
-    clauses = CLAUSES[divergence.what]
-    clause = clauses if isinstance(clauses, str) else clauses[divergence.path[-1:]]
+    clause = CLAUSES.get(divergence.what, CLAUSES_OF_WAYS[divergence.path[-1:]])
     lines = [f"  Ray '{divergence.path}' ({in_words(divergence.path)}) {WHAT[divergence.what]}."]
     if divergence.what == "primitive":
         lines.append(f"  Yours: {_primitive(divergence.found)}. Right: {_primitive(divergence.low)}.")

@@ -119,18 +119,7 @@ def _record(
     start: float,
 ) -> Grade:
     points = topic_points(assignment, names, {name: it.counts for name, it in pictures.items()})
-    scenes = [_scene_grade(it, assignment, is_private=name in occasion.private) for name, it in pictures.items()]
-    scenes += [
-        SceneGrade(
-            name=name,
-            purpose="",
-            verdict="grader_error",
-            credit=0.0,
-            reason=f"raytruth itself failed: {why}",
-            is_private=name in occasion.private,
-        )
-        for name, why in failures.items()
-    ]
+    scenes = _scene_grades(assignment, occasion, pictures, failures)
     return Grade(
         raytruth_version=version("raytruth"),
         assignment=assignment.name,
@@ -147,11 +136,33 @@ def _record(
         maximum=score_of([(most, most) for _, most in points.values()], 0, assignment),
         clauses=_topic_grades(points, names, assignment),
         mistakes=_mistake_grades(points, reading, assignment),
-        scenes=tuple(sorted(scenes, key=lambda it: it.name)),
+        scenes=scenes,
         diagnosis=tuple(explained[0]),
         unexplained=explained[1],
         seconds=time.perf_counter() - start,
     )
+
+
+def _scene_grades(
+    assignment: Assignment,
+    occasion: Occasion,
+    pictures: Mapping[str, GradedPicture],
+    failures: Mapping[str, str],
+) -> tuple[SceneGrade, ...]:
+    """All scenes in the order of their names, those that raytruth itself could not grade among them."""
+    scenes = [_scene_grade(it, assignment, is_private=name in occasion.private) for name, it in pictures.items()]
+    scenes += [
+        SceneGrade(
+            name=name,
+            purpose="",
+            verdict="grader_error",
+            credit=0.0,
+            reason=f"raytruth itself failed: {why}",
+            is_private=name in occasion.private,
+        )
+        for name, why in failures.items()
+    ]
+    return tuple(sorted(scenes, key=lambda it: it.name))
 
 
 def _topic_grades(

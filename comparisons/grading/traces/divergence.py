@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from raytruth.comparisons.grading.traces.ways import Ways
+from raytruth.comparisons.records.ray_tree_results import Comparison, Divergence
 from raytruth.reference_tracer.arithmetics.balls import TooManyOutcomesError
 from raytruth.reference_tracer.source.traversal import NOTHING
 
@@ -16,35 +16,11 @@ if TYPE_CHECKING:
     from raytruth.comparisons.feasible_sets.rounded_rays import Ray
     from raytruth.comparisons.grading.traces.ray_lines import RayLine
     from raytruth.comparisons.grading.traces.ways import Way
+    from raytruth.comparisons.records.ray_tree_results import What
     from raytruth.scenes.scene import Scene
 
-What = Literal["origin", "direction", "primitive", "distance", "normal", "local", "missing", "extra", "color"]
 # What weighs less than a rounding of 1 in float32 need not be traced.
 NEGLIGIBLE = 2.0**-24
-
-
-@dataclass(frozen=True)
-class Divergence:
-    """The first thing of a tree that no right tracer has."""
-
-    path: str
-    what: What
-    found: tuple[float, ...] = ()
-    """What the program printed; empty where it printed nothing, or hits nothing."""
-    low: tuple[float, ...] = ()
-    high: tuple[float, ...] = ()
-    """What it may be, of the way that fits best; empty where nothing is to be hit."""
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """What came of comparing a tree."""
-
-    agreed: int
-    """How many rays were found as they should be, before the first that is not."""
-    divergence: Divergence | None
-    open_paths: tuple[str, ...] = ()
-    """Of rays that may go more ways than are told apart: they and what follows them are not compared."""
 
 
 def compared(
@@ -66,15 +42,15 @@ class _Tree:
 
     def compared(self, column: int, row: int) -> Comparison:
         divergence = self._follow("", self.ways.camera_ray(column, row))
-        return Comparison(self.agreed, divergence, tuple(dict.fromkeys(self.open_paths)))
+        open_paths = tuple(dict.fromkeys(self.open_paths))
+        return Comparison(agreed=self.agreed, divergence=divergence, open_paths=open_paths)
 
     def _follow(self, path: str, ray: Ray) -> Divergence | None:
         """Rays first, in the order in which they are sent on; then what each brings back, the last first."""
         line = self.rays[path]
-        for what, values in (("origin", ray[0]), ("direction", ray[1])):
-            told = _mismatch(path, what, getattr(line, what), values)
-            if told is not None:
-                return told
+        told = _mismatch(path, "origin", line.origin, ray[0]) or _mismatch(path, "direction", line.direction, ray[1])
+        if told is not None:
+            return told
         try:
             ways = self.ways.of(self.ways.restarted(ray, line.origin, line.direction))
         except TooManyOutcomesError:
@@ -94,14 +70,14 @@ class _Tree:
             it for it in self.rays if len(it) == len(path) + 1 and it.startswith(path) and it not in expected
         )
         if extra:
-            return Divergence(extra[0], "extra")
+            return Divergence(path=extra[0], what="extra")
         for letter, ray in way.children.items():
             if path + letter in self.rays:
                 told = self._follow(path + letter, ray)
                 if told is not None:
                     return told
             elif not all(weight < NEGLIGIBLE for weight in ray[2]):
-                return Divergence(path + letter, "missing")
+                return Divergence(path=path + letter, what="missing")
         return self._color(path, way)
 
     def _color(self, path: str, way: Way) -> Divergence | None:
@@ -121,12 +97,12 @@ def _mismatches(path: str, line: RayLine, way: Way) -> Iterator[Divergence]:
     stated = line.model_fields_set
     hit = NOTHING if line.primitive is None else line.primitive
     if "primitive" in stated and hit != way.primitive:
-        yield Divergence(path, "primitive", *(() if it == NOTHING else (float(it),) for it in (hit, way.primitive)))
+        yours, right = (() if it == NOTHING else (float(it),) for it in (hit, way.primitive))
+        yield Divergence(path=path, what="primitive", found=yours, low=right, high=right)
     if "distance" in stated:
         if (line.distance is None) != (way.distance is None):
-            yield Divergence(
-                path, "distance", () if line.distance is None else (line.distance,), *_ends((way.distance,))
-            )
+            found = () if line.distance is None else (line.distance,)
+            yield _divergence(path, "distance", found, (way.distance,))
         elif line.distance is not None:
             yield from _some(_mismatch(path, "distance", (line.distance,), (way.distance,)))
     if way.normal is not None:
@@ -143,13 +119,17 @@ def _mismatch(path: str, what: What, found: tuple[float, ...] | None, balls: tup
     """None where each number lies in its ball; what nothing is known of, or was not printed, is no mismatch."""
     if found is None or all(_lies_in(value, ball) for value, ball in zip(found, balls, strict=True)):
         return None
-    return Divergence(path, what, tuple(found), *_ends(balls))
+    return _divergence(path, what, tuple(found), balls)
 
 
 def _lies_in(value: float, ball: Any) -> bool:
     return not ball.is_finite() or bool(ball.lower() <= value <= ball.upper())
 
 
-def _ends(balls: tuple[Any, ...]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def _divergence(path: str, what: What, found: tuple[float, ...], balls: tuple[Any, ...]) -> Divergence:
+    """What was found beside the ends of balls; None stands for nothing to be hit."""
     known = [ball for ball in balls if ball is not None]
-    return tuple(float(ball.lower()) for ball in known), tuple(float(ball.upper()) for ball in known)
+    low, high = (
+        tuple(float(end) for end in ends) for ends in ([it.lower() for it in known], [it.upper() for it in known])
+    )
+    return Divergence(path=path, what=what, found=found, low=low, high=high)

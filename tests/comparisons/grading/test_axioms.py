@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import pytest
@@ -67,6 +67,11 @@ def test_a_picture_that_is_altered_alike_is_graded_as_if_it_were_not_once_that_i
 CREDITS = st.sampled_from([0.0, 0.25, 0.5, 1.0])
 
 
+def scene_grade(name: str, credit: float, is_private: bool) -> SceneGrade:
+    verdict: Literal["right", "wrong"] = "right" if credit == 1.0 else "wrong"
+    return SceneGrade(name=name, purpose="", verdict=verdict, credit=credit, reason="-", is_private=is_private)
+
+
 @st.composite
 def grades(draw: st.DrawFn, private_credits: dict[str, float]) -> Grade:
     """A grade of two topics of which some scenes are private, and perhaps a global mistake."""
@@ -85,17 +90,6 @@ def grades(draw: st.DrawFn, private_credits: dict[str, float]) -> Grade:
     total = sum(it.points for it in clauses)
     charge = total * draw(st.sampled_from([0.0, 0.1]))
     mistakes = (MistakeGrade(name="mirrored", words="-", hint="-", charge=charge),) if charge else ()
-    scenes = tuple(
-        SceneGrade(
-            name=name,
-            purpose="",
-            verdict="right" if own == 1.0 else "wrong",
-            credit=own,
-            reason="-",
-            is_private=name in private_credits,
-        )
-        for name, own in credits.items()
-    )
     return Grade(
         raytruth_version="1",
         assignment="a",
@@ -109,7 +103,7 @@ def grades(draw: st.DrawFn, private_credits: dict[str, float]) -> Grade:
         maximum=100.0,
         clauses=clauses,
         mistakes=mistakes,
-        scenes=scenes,
+        scenes=tuple(scene_grade(name, own, name in private_credits) for name, own in credits.items()),
         diagnosis=(),
         seconds=0.0,
     )

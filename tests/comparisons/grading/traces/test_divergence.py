@@ -14,8 +14,8 @@ from raytruth.scenes.library import open_scene
 from tests.comparisons.grading.traces.right_trees import MODELS, changed, right_tree
 
 if TYPE_CHECKING:
-    from raytruth.comparisons.grading.traces.divergence import Comparison
     from raytruth.comparisons.grading.traces.ray_lines import RayLine
+    from raytruth.comparisons.records.ray_tree_results import Comparison
     from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("GRD-9")
