@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from raytruth.api.images import explain, render, truth
     from raytruth.api.judgement import ImageJudgement, feasible_set, judge
+    from raytruth.api.oracle import oracle
     from raytruth.api.scenes import load_scene, resized
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.error_models.output_model import OutputModel
     from raytruth.comparisons.error_models.ray_offset_model import RayOffset
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
+    from raytruth.comparisons.oracle.answer import CertifiedNumber, NumberRange, OracleAnswer
+    from raytruth.comparisons.oracle.lines import QuestionError
     from raytruth.comparisons.records.results import DeclaredPixels, Verdict, WorstPixel
     from raytruth.comparisons.renderers.program.declaration_file import DeclarationError
     from raytruth.reference_tracer.certified_image import CertifiedImage
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "CertifiedImage",
+    "CertifiedNumber",
     "DeclarationError",
     "DeclaredPixels",
     "ErrorModel",
@@ -33,7 +37,10 @@ __all__ = [
     "ExplanationError",
     "FeasibleSet",
     "ImageJudgement",
+    "NumberRange",
+    "OracleAnswer",
     "OutputModel",
+    "QuestionError",
     "RayOffset",
     "Scene",
     "SceneError",
@@ -44,6 +51,7 @@ __all__ = [
     "judge",
     "library_names",
     "load_scene",
+    "oracle",
     "render",
     "resized",
     "truth",
@@ -51,6 +59,7 @@ __all__ = [
 
 _MODULES = {
     "CertifiedImage": "raytruth.reference_tracer.certified_image",
+    "CertifiedNumber": "raytruth.comparisons.oracle.answer",
     "DeclarationError": "raytruth.comparisons.renderers.program.declaration_file",
     "DeclaredPixels": "raytruth.comparisons.records.results",
     "ErrorModel": "raytruth.comparisons.error_models.error_model",
@@ -58,7 +67,10 @@ _MODULES = {
     "ExplanationError": "raytruth.reference_tracer.explanation",
     "FeasibleSet": "raytruth.comparisons.feasible_sets.feasible_set",
     "ImageJudgement": "raytruth.api.judgement",
+    "NumberRange": "raytruth.comparisons.oracle.answer",
+    "OracleAnswer": "raytruth.comparisons.oracle.answer",
     "OutputModel": "raytruth.comparisons.error_models.output_model",
+    "QuestionError": "raytruth.comparisons.oracle.lines",
     "RayOffset": "raytruth.comparisons.error_models.ray_offset_model",
     "Scene": "raytruth.scenes.scene",
     "SceneError": "raytruth.scenes.loading",
@@ -69,6 +81,7 @@ _MODULES = {
     "judge": "raytruth.api.judgement",
     "library_names": "raytruth.scenes.library",
     "load_scene": "raytruth.api.scenes",
+    "oracle": "raytruth.api.oracle",
     "render": "raytruth.api.images",
     "resized": "raytruth.api.scenes",
     "truth": "raytruth.api.images",

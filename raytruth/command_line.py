@@ -60,6 +60,20 @@ COMMANDS = {
         "Examples: `raytruth grade-all submissions --assignment mine.toml --build make`, "
         "`raytruth grade-all moodle-export.zip --run './tracer {scene} {output}.pfm' --out graded`",
     ),
+    "trace": (
+        "raytruth.trace_command:trace",
+        "Compare the ray tree that a program prints of a pixel with the right one, ray by ray.",
+        "Exit status 0 if all rays agree, 1 if one differs or the program fails. "
+        "Example: `raytruth trace glass-sphere --quick --pixel 10,7 -- ./tracer {scene} {output}.pfm`",
+    ),
+    "oracle": (
+        "raytruth.oracle_command:oracle",
+        "Answer single steps of a ray tracer, proven, for unit tests in any language: lines of JSON in and out.",
+        "Exit status 0 if all was answered, 2 if a line was no good question: its answer then has a key `error`. "
+        "`ask` is intersect_sphere, intersect_triangle, intersect_plane, intersect_box, reflect, refract, fresnel, "
+        "shade or primary_ray. Example: "
+        """`echo '{"ask": "fresnel", "cosine": 0.5, "index_from": 1, "index_to": 1.5}' | raytruth oracle`""",
+    ),
     "scenes": ("raytruth.scenes_commands:app", "List, show, validate and export scenes.", ""),
     "renderers": (
         "raytruth.renderers_command:renderers",
@@ -87,7 +101,8 @@ COMMANDS = {
         "raytruth.faults_command:faults",
         "Run the kill matrix: every known fault must be found on some scene, and no legitimate variant on any.",
         "Exit status 0 if all faults are killed and no variant is flagged, else 1. What has not changed is taken over. "
-        "Examples: `raytruth faults`, `raytruth faults --json --out results`",
+        "Examples: `raytruth faults`, `raytruth faults --json --out results`, "
+        "`raytruth faults --scene mine.json --leaderboard board.json --by Ada`",
     ),
     "spec": (
         "raytruth.spec_command:spec",

@@ -18,6 +18,7 @@ from raytruth.options import AsJson, expect_folder, open_scene
 from raytruth.output import tell
 from raytruth.reports.html import REPORT_FILE
 from raytruth.reports.kills import print_kills, write_kill_report
+from raytruth.scene_score_command import score_scene
 from raytruth.scenes.library import library_names
 from raytruth.written_report import written_report
 
@@ -32,6 +33,9 @@ FAILED = 1
 
 def faults(
     *scenes: str,
+    scene: str | None = None,
+    leaderboard: Path | None = None,
+    by: str | None = None,
     out: Path = Path("results"),
     jobs: int | None = None,
     fresh: Annotated[bool, Parameter(negative="")] = False,
@@ -46,6 +50,13 @@ def faults(
     ----------
     scenes
         Names of library scenes, or paths of scene files; the whole library by default.
+    scene
+        In place of all that: score this one scene by the faults that it finds and the pixels that it needs. Exit
+        status 1 then if it flags a right variant.
+    leaderboard
+        With --scene: enter the score into this file, in which each name has its best scene.
+    by
+        With --leaderboard: whose scene it is; the scene's own name by default.
     out
         The results directory: `faults.json`, the page `faults.html`, and what a later run takes over.
     jobs
@@ -60,6 +71,12 @@ def faults(
     if jobs is not None and jobs < 1:
         raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
     expect_folder(out)
+    if scene is not None:
+        if scenes or write_quick:
+            raise UsageError("--scene: expected no other scenes and no --write-quick beside it; leave them out.")
+        return score_scene(scene, by, leaderboard, out, fresh=fresh, as_json=as_json)
+    if leaderboard is not None or by is not None:
+        raise UsageError("faults: expected --scene FILE beside --leaderboard and --by; add it.")
     opened = [open_scene(source) for source in scenes or library_names()]
     start = time.perf_counter()
     kills = _run(opened, out, jobs or os.cpu_count() or 1, fresh=fresh)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shlex
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path  # noqa: TC003 - cyclopts reads annotations at run time
@@ -20,15 +19,16 @@ from raytruth.comparisons.grading.assignment_file import (
 )
 from raytruth.comparisons.grading.assignment_scenes import scenes_of
 from raytruth.comparisons.grading.feedback import for_student
-from raytruth.comparisons.grading.grade import Occasion, grade_submission
+from raytruth.comparisons.grading.grade import grade_submission
 from raytruth.comparisons.processes.interruption import start_worker
 from raytruth.comparisons.records.class_results import Service  # noqa: TC001 - as Path
 from raytruth.comparisons.records.grade_results import GRADE_FILE
 from raytruth.errors import UsageError
+from raytruth.grading_occasion import occasion_of
 from raytruth.kept_grades import begin_results, has_grade, has_score
 from raytruth.options import AsJson, expect_folder
 from raytruth.output import print_json, progress, say
-from raytruth.programs import programs_of
+from raytruth.programs import the_program
 from raytruth.reference_tracer.storage.cache import cache_folder
 from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.reports.grade_junit import grade_junit
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from raytruth.comparisons.grading.assignment import Assignment, Stage
+    from raytruth.comparisons.grading.grade import Occasion
     from raytruth.comparisons.records.grade_results import Grade
     from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
     from raytruth.scenes.scene import Scene
@@ -55,8 +56,10 @@ def grade(
     assignment: str = STARTING,
     renderer_file: Path | None = None,
     stage: str | None = None,
-    attempt: int = 1,
-    seed: int = 0,
+    attempt: int | None = None,
+    date: str | None = None,
+    seed: int | None = None,
+    submission_metadata: Path | None = None,
     out: Path | None = None,
     gradescope: Path | None = None,
     junit: Path | None = None,
@@ -81,9 +84,14 @@ def grade(
     stage
         A stage of the assignment: what is not due yet does not count.
     attempt
-        Which attempt this is, from 1: some assignments tell more at later ones.
+        Which attempt this is, from 1: some assignments tell more at later ones. By default the first.
+    date
+        At which date the student is told, as 2026-12-01T23:59:00+01:00; by default now.
     seed
-        Added to the seeds of scenes that are drawn, so that each submission may have its own.
+        Added to the seeds of scenes that are drawn. By default 0, or any if the assignment draws scenes anew.
+    submission_metadata
+        Gradescope's submission_metadata.json, which tells the attempt, the student's deadline, and the seed for
+        scenes that are drawn anew.
     out
         Write grade.json, student.html and teacher.html to this folder.
     gradescope
@@ -117,19 +125,18 @@ def grade(
     _check_numbers(attempt, jobs, seed)
     if out is not None:
         expect_folder(out)
-    program = _program(command, renderer_file)
+    program = the_program("grade", command, renderer_file)
     opened, path = opened_assignment(assignment)
-    due = stage_named(opened, stage)
-    topics = scenes_of(opened, path.parent, seed, due)
-    if not topics:
-        raise UsageError(f"--stage: nothing is due at the stage {quoted(str(stage))}.")
-    begin_results(gradescope, opened, Occasion(stage, attempt))
+    opened, occasion = occasion_of(opened, stage, attempt, date, seed, submission_metadata)
+    topics = _due_topics(opened, path, occasion)
+    begin_results(gradescope, opened, occasion)
     hidden = [file for file in (path, cache_folder(), out, gradescope, junit) if file is not None]
     with sandboxed(program, sandbox, hidden, sandbox_read) as (confined, held), progress("Grading"):
-        graded = _graded(confined, opened, topics, Occasion(stage, attempt), jobs or os.cpu_count() or 1)
+        graded = _graded(confined, opened, topics, occasion, jobs or os.cpu_count() or 1)
     graded = graded.model_copy(update={"sandbox": held})
-    _write(graded, out, gradescope, junit)
-    return _told(graded, as_json=as_json)
+    shown = for_student(graded)
+    _write(graded, shown, out, gradescope, junit)
+    return _told(graded, shown, as_json=as_json)
 
 
 def _graded(
@@ -148,23 +155,22 @@ def _graded(
             pool.shutdown(cancel_futures=True)
 
 
-def _told(graded: Grade, *, as_json: bool) -> int:
+def _told(graded: Grade, shown: Grade, *, as_json: bool) -> int:
     """Print the grade; the exit status that it has."""
     if as_json:
         print_json(graded.model_dump(mode="json"))
     else:
-        say("\n".join(grade_lines(for_student(graded))))
+        say("\n".join(grade_lines(shown)))
     if graded.status == "grader_error":
         return GRADER_ERROR
-    return 0 if graded.score == graded.maximum else FAILED
+    return 0 if shown.score == shown.maximum else FAILED
 
 
-def _write(graded: Grade, out: Path | None, gradescope: Path | None, junit: Path | None) -> None:
+def _write(graded: Grade, told: Grade, out: Path | None, gradescope: Path | None, junit: Path | None) -> None:
     """Each file whole or not at all; only grade.json and the teacher's page hold what is not for students.
 
     Where raytruth itself failed, grades of an earlier run stay as they are.
     """
-    told = for_student(graded)
     if graded.status == "grader_error":
         out, gradescope = None if has_grade(out) else out, None if has_score(gradescope) else gradescope
     if out is not None:
@@ -178,14 +184,12 @@ def _write(graded: Grade, out: Path | None, gradescope: Path | None, junit: Path
         write_whole(junit, grade_junit(told))
 
 
-def _program(command: tuple[str, ...], file: Path | None) -> ProgramRenderer:
-    """The one program to grade. Raises UsageError with every mistake of its declaration."""
-    if bool(command) == (file is not None):
-        found = "both" if command else "neither"
-        raise UsageError(f"grade: expected a command after -- or --renderer-file FILE, found {found}.")
-    commands = [f"submission={shlex.join(command)}"] if command else []
-    (program,) = programs_of(commands, [file] if file is not None else []).values()
-    return program
+def _due_topics(assignment: Assignment, path: Path, occasion: Occasion) -> dict[str, tuple[Scene, ...]]:
+    """The scenes that count at the occasion's stage. Raises UsageError where there are none."""
+    topics = scenes_of(assignment, path.parent, occasion.seed, stage_named(assignment, occasion.stage))
+    if not topics:
+        raise UsageError(f"--stage: nothing is due at the stage {quoted(str(occasion.stage))}.")
+    return topics
 
 
 def stage_named(assignment: Assignment, name: str | None) -> Stage | None:
@@ -198,7 +202,7 @@ def stage_named(assignment: Assignment, name: str | None) -> Stage | None:
     return known[name]
 
 
-def _check_numbers(attempt: int, jobs: int | None, seed: int) -> None:
+def _check_numbers(attempt: int | None, jobs: int | None, seed: int | None) -> None:
     for option, number, least in (("--attempt", attempt, 1), ("--jobs", jobs, 1), ("--seed", seed, 0)):
         if number is not None and number < least:
             raise UsageError(f"{option}: expected {least} or more, found {number}.")

@@ -18,7 +18,7 @@ from raytruth.errors import UsageError
 from raytruth.scenes.wording import quoted
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
 FILE_OPTION = "--renderer-file"
 COMMAND_OPTION = "--renderer-command"
@@ -46,6 +46,19 @@ def programs_of(commands: Iterable[str], files: Iterable[Path]) -> dict[str, Pro
     if problems:
         raise UsageError("\n".join(problems))
     return programs
+
+
+def the_program(asking: str, command: Sequence[str], file: Path | None) -> ProgramRenderer:
+    """The one program that a command judges: words behind `--`, or a file. Raises UsageError with every mistake.
+
+    `asking` is the command's name, for its sentence.
+    """
+    if bool(command) == (file is not None):
+        found = "both" if command else "neither"
+        raise UsageError(f"{asking}: expected a command after -- or {FILE_OPTION} FILE, found {found}.")
+    commands = [f"submission={shlex.join(command)}"] if command else []
+    (program,) = programs_of(commands, [] if file is None else [file]).values()
+    return program
 
 
 def missing_programs(program: ProgramRenderer) -> list[str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from raytruth.reports import wording
-from raytruth.reports.grade_text import diagnosis_sentence, headline, points, scene_sentence
+from raytruth.reports.grade_text import diagnosis_sentence, headline, hidden_points, points, scene_sentence
 from raytruth.reports.sandbox_text import sandbox_sentence
 
 if TYPE_CHECKING:
@@ -29,6 +29,7 @@ def grade_page(grade: Grade, *, for_teacher: bool) -> str:
         finalize=lambda value: wording.printable(value) if type(value) is str else value,
     )
     environment.filters["points"] = points
+    environment.filters["hidden"] = hidden_points
     environment.filters["sentence"] = scene_sentence
     environment.filters["proof"] = diagnosis_sentence
     return environment.get_template("grade.html.jinja").render(

@@ -19,13 +19,20 @@ def headline(grade: Grade) -> str:
         failed = ", ".join(it.name for it in grade.scenes if it.verdict == "grader_error")
         aside = f" on {failed}" if failed else ""
         return f"raytruth itself failed{aside}: this is no grade, and no fault of the submission."
-    return f"{points(grade.score)} of {points(grade.maximum)} points."
+    return f"{points(grade.score)} of {points(grade.maximum)} points{hidden_points(grade.hidden)}."
+
+
+def hidden_points(hidden: float) -> str:
+    """A clause on the points that private scenes decide; empty where there are none."""
+    return f" so far; {points(hidden)} more are decided by scenes that are told after the deadline" if hidden else ""
 
 
 def grade_lines(grade: Grade) -> list[str]:
     """All that a grade holds, a line each."""
     lines = [f"{grade.title}: {headline(grade)}"]
-    lines += [f"  {it.title}: {points(it.points)} of {points(it.maximum)}" for it in grade.clauses]
+    lines += [
+        f"  {it.title}: {points(it.points)} of {points(it.maximum)}{hidden_points(it.hidden)}" for it in grade.clauses
+    ]
     lines += [
         f"  Charged once, undone, and the rest graded: -{points(it.charge)}. {_mistake(it)}" for it in grade.mistakes
     ]

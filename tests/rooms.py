@@ -26,6 +26,7 @@ ROOMS = (
     "comparisons/feasible_sets",
     "comparisons/faults",
     "comparisons/renderers",
+    "comparisons/oracle",
     "comparisons/judgement",
     "comparisons/matrix",
     "comparisons/kills",

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 import shlex
+from datetime import datetime
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic import AfterValidator, AwareDatetime, BeforeValidator, Field
 
 from raytruth.comparisons.renderers.program.declaration import Arithmetic, FeatureName, Formulas, Limits, Rays
 from raytruth.comparisons.renderers.program.declared_part import Part
@@ -37,6 +38,15 @@ def _a_family(name: str) -> str:
     return name
 
 
+def _as_date(value: object) -> object:
+    """TOML has dates; JSON, in which schemas are checked, has them as texts."""
+    if isinstance(value, datetime) and value.tzinfo is None:
+        raise ValueError(f"expected a date with its offset from UTC, as {value.isoformat()}+01:00")
+    if not isinstance(value, datetime):
+        raise ValueError("expected a date with time and offset from UTC, as 2026-12-01T23:59:00+01:00, without quotes")
+    return value
+
+
 def _as_list(value: object) -> object:
     """One level for all attempts may stand without brackets."""
     return [value] if isinstance(value, str) else value
@@ -54,6 +64,7 @@ ShellWords = Annotated[str, AfterValidator(_as_a_shell_takes_it)]
 Identifier = Annotated[str, AfterValidator(_usable_id)]
 Share = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, le=1)]
 Weight = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0, le=_MOST_POINTS)]
+Date = Annotated[AwareDatetime, BeforeValidator(_as_date)]
 Seed = Annotated[int, Field(strict=True, ge=0, le=_LARGEST_SEED)]
 
 
@@ -81,7 +92,10 @@ class FamilyScenes(Part):
     family: Annotated[str, AfterValidator(_a_family)] = Field(description="The family's name.")
     parameter: float = Field(strict=True, allow_inf_nan=False, description="The family's parameter.")
     seeds: tuple[Seed, ...] = Field(
-        min_length=1, description="Added to the seed of a submission, so that each may have scenes of its own."
+        (), description="Added to the seed of a submission, so that each may have scenes of its own."
+    )
+    private_seeds: tuple[Seed, ...] = Field(
+        (), description="The same of scenes of which students are told after the deadline only."
     )
 
 
@@ -93,6 +107,13 @@ class Topic(Part):
     weight: Weight = Field(1.0, description="Its share of all points, beside the other topics' weights.")
     scenes: tuple[str, ...] = Field((), description="Scenes of the library, or paths from the assignment's folder.")
     families: tuple[FamilyScenes, ...] = Field((), description="Scenes that are drawn.")
+    private_scenes: tuple[str, ...] = Field(
+        (), description="As scenes, of which students are told after the deadline only."
+    )
+
+    def has_private(self) -> bool:
+        """Whether it has scenes of which students are told after the deadline only."""
+        return bool(self.private_scenes) or any(drawn.private_seeds for drawn in self.families)
 
 
 class Stage(Part):
@@ -103,6 +124,13 @@ class Stage(Part):
         min_length=1,
         description="Scenes that require one of these features do not count; names as in a declaration.",
     )
+
+
+class DatedFeedback(Part):
+    """How much students are told from a date on."""
+
+    since: Date = Field(description="A date with time and offset from UTC, as 2026-12-01T23:59:00+01:00.")
+    told: Level = Field(description="How much they are told from then on, whichever attempt it is.")
 
 
 class Assignment(Part):
@@ -144,7 +172,24 @@ class Assignment(Part):
         min_length=1,
         description="How much the student is told at the first attempt, at the second, …; the last holds from then on.",
     )
+    dated_feedback: tuple[DatedFeedback, ...] = Field(
+        (), description="How much the student is told from dates on, in place of what holds for the attempt."
+    )
+    deadline: Date | None = Field(
+        None,
+        description="Before this date students are not told of private scenes; without one there are none.",
+    )
+    drawn: Literal["alike", "anew"] = Field(
+        "alike", description="Whether scenes of families are the same for all, or drawn anew for each submission."
+    )
 
-    def told(self, attempt: int) -> Level:
-        """How much is told at this attempt, counted from 1."""
+    def told(self, attempt: int, date: datetime | None = None) -> Level:
+        """How much is told at this attempt, counted from 1, on this date; without one no date has come."""
+        come = [dated for dated in self.dated_feedback if date is not None and dated.since <= date]
+        if come:
+            return max(come, key=lambda dated: dated.since).told
         return self.feedback[min(attempt, len(self.feedback)) - 1]
+
+    def tells_private(self, date: datetime | None) -> bool:
+        """Whether students are told of private scenes on this date; without one the deadline has not come."""
+        return self.deadline is None or (date is not None and self.deadline <= date)

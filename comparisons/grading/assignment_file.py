@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -85,6 +86,8 @@ def _with_stand_ins(data: dict[str, Any], wrong: list[Location]) -> dict[str, An
     kept: dict[str, Any] = {"name": "stand-in", "title": "-", "models": [{}], "topics": [_stand_in("topics", 0)]}
     whole = {str(location[0]) for location in wrong if len(location) == 1 or not isinstance(location[1], int)}
     kept |= {key: value for key, value in data.items() if key not in whole}
+    if "deadline" in whole:
+        kept["deadline"] = datetime.now(UTC)
     for key, number in {(str(location[0]), location[1]) for location in wrong if str(location[0]) not in whole}:
         kept[key] = [_stand_in(key, number) if place == number else part for place, part in enumerate(kept[key])]
     return kept
@@ -97,6 +100,7 @@ def _stand_in(key: str, number: int | str) -> Any:
         "stages": {"id": f"stand-in-{number}", "without": ["mirrors"]},
         "models": {},
         "feedback": "score",
+        "dated_feedback": {"since": datetime.now(UTC), "told": "score"},
     }[key]
 
 
@@ -121,5 +125,13 @@ def _further_problems(assignment: Assignment) -> Iterator[tuple[Location, str]]:
             if name in ids[:number]:
                 yield (key, number, "id"), f"expected an id of its own, found {quoted(name)} a second time."
     for number, topic in enumerate(assignment.topics):
-        if not topic.scenes and not topic.families:
+        if not topic.scenes and not topic.families and not topic.private_scenes:
             yield ("topics", number), "expected scenes or families, found neither; without them it has no points."
+        for place_of_family, drawn in enumerate(topic.families):
+            if not drawn.seeds and not drawn.private_seeds:
+                yield ("topics", number, "families", place_of_family), "expected seeds or private_seeds, found neither."
+        if topic.has_private() and assignment.deadline is None:
+            told = "expected a deadline beside private scenes, after which students are told of them; add deadline ="
+            yield ("topics", number), f"{told} 2026-12-01T23:59:00+01:00 above the first table."
+    if assignment.drawn == "anew" and not any(topic.families for topic in assignment.topics):
+        yield ("drawn",), "expected families whose scenes can be drawn anew, found none; add some or leave it out."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.matrix.quick_suite import small
@@ -11,8 +12,6 @@ from raytruth.scenes.loading import SceneError
 from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from raytruth.comparisons.grading.assignment import Assignment, FamilyScenes, Stage
     from raytruth.scenes.scene import Scene
 
@@ -28,7 +27,8 @@ def scenes_of(
     problems: list[str] = []
     found: dict[str, tuple[Scene, ...]] = {}
     for topic in assignment.topics:
-        scenes = [scene for source in topic.scenes for scene in _opened(source, folder, problems)]
+        sources = (*topic.scenes, *topic.private_scenes)
+        scenes = [scene for source in sources for scene in _opened(source, folder, problems)]
         for drawn in topic.families:
             scenes += _drawn(drawn, seed, problems)
         sized = scenes if assignment.full_size else [small(scene) for scene in scenes]
@@ -38,6 +38,29 @@ def scenes_of(
     if problems:
         raise SceneError(problems)
     return found
+
+
+def private_names(assignment: Assignment, seed: int = 0) -> frozenset[str]:
+    """The names of the scenes of which students are told after the deadline only; `seed` as for `scenes_of`.
+
+    A scene that some topic has for all to see is not private.
+    """
+    topics = assignment.topics
+    hidden = {_name_of(source) for topic in topics for source in topic.private_scenes}
+    shown = {_name_of(source) for topic in topics for source in topic.scenes}
+    for drawn in (drawn for topic in topics for drawn in topic.families):
+        hidden |= {_drawn_name(drawn, seed + own) for own in drawn.private_seeds}
+        shown |= {_drawn_name(drawn, seed + own) for own in drawn.seeds}
+    return frozenset(hidden - shown)
+
+
+def _name_of(source: str) -> str:
+    """The name of a scene of the library, or of the scene in a file."""
+    return Path(source).stem if source.lower().endswith(".json") else source
+
+
+def _drawn_name(drawn: FamilyScenes, seed: int) -> str:
+    return f"{drawn.family}-{drawn.parameter:g}-{seed}"
 
 
 def is_due(scene: Scene, stage: Stage | None) -> bool:
@@ -60,9 +83,9 @@ def _drawn(drawn: FamilyScenes, seed: int, problems: list[str]) -> list[Scene]:
     try:
         return [
             family(drawn.family, drawn.parameter, seed + own).model_copy(
-                update={"name": f"{drawn.family}-{drawn.parameter:g}-{seed + own}"}
+                update={"name": _drawn_name(drawn, seed + own)}
             )
-            for own in drawn.seeds
+            for own in (*drawn.seeds, *drawn.private_seeds)
         ]
     except (ValueError, ArithmeticError) as error:
         problems.append(f"family {drawn.family}: its parameter {drawn.parameter:g} gives no scene ({error}).")

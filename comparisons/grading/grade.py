@@ -22,6 +22,7 @@ from raytruth.scenes.requirements import required_features
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from concurrent.futures import Executor
+    from datetime import datetime
 
     from raytruth.comparisons.error_models.output_model import OutputModel
     from raytruth.comparisons.grading.assignment import Assignment
@@ -38,6 +39,12 @@ class Occasion:
 
     stage: str | None = None
     attempt: int = 1
+    date: datetime | None = None
+    """When it was handed in, with its offset from UTC; None: before all dates of the assignment."""
+    seed: int = 0
+    """What was added to the seeds of scenes that are drawn."""
+    private: frozenset[str] = frozenset()
+    """The names of scenes of which students are told after the deadline only."""
 
 
 def grade_submission(
@@ -65,7 +72,9 @@ def grade_submission(
         reading = best_reading(images, own, assignment, names, declared, pool)
         if reading != AS_IT_IS:
             pictures = _reread(pictures, reading, assignment, declared, pool)
-    explained = diagnose(list(pictures.values()), reading, declared, assignment, pool)
+    tells_all = assignment.tells_private(occasion.date)
+    shown = [it for name, it in pictures.items() if tells_all or name not in occasion.private]
+    explained = diagnose(shown, reading, declared, assignment, pool)
     return _record(assignment, occasion, program.name, names, pictures, failures, reading, explained, start)
 
 
@@ -110,11 +119,7 @@ def _record(
     start: float,
 ) -> Grade:
     points = topic_points(assignment, names, {name: it.counts for name, it in pictures.items()})
-    scenes = [_scene_grade(picture, assignment) for picture in pictures.values()]
-    scenes += [
-        SceneGrade(name=name, purpose="", verdict="grader_error", credit=0.0, reason=f"raytruth itself failed: {why}")
-        for name, why in failures.items()
-    ]
+    scenes = _scene_grades(assignment, occasion, pictures, failures)
     return Grade(
         raytruth_version=version("raytruth"),
         assignment=assignment.name,
@@ -122,17 +127,42 @@ def _record(
         submission=submission,
         stage=occasion.stage,
         attempt=occasion.attempt,
-        told=assignment.told(occasion.attempt),
+        told=assignment.told(occasion.attempt, occasion.date),
+        seed=occasion.seed,
+        date=occasion.date.isoformat() if occasion.date else None,
+        tells_private=assignment.tells_private(occasion.date),
         status="grader_error" if failures else "graded",
         score=score_of(points.values(), len(reading), assignment),
         maximum=score_of([(most, most) for _, most in points.values()], 0, assignment),
         clauses=_topic_grades(points, names, assignment),
         mistakes=_mistake_grades(points, reading, assignment),
-        scenes=tuple(sorted(scenes, key=lambda it: it.name)),
+        scenes=scenes,
         diagnosis=tuple(explained[0]),
         unexplained=explained[1],
         seconds=time.perf_counter() - start,
     )
+
+
+def _scene_grades(
+    assignment: Assignment,
+    occasion: Occasion,
+    pictures: Mapping[str, GradedPicture],
+    failures: Mapping[str, str],
+) -> tuple[SceneGrade, ...]:
+    """All scenes in the order of their names, those that raytruth itself could not grade among them."""
+    scenes = [_scene_grade(it, assignment, is_private=name in occasion.private) for name, it in pictures.items()]
+    scenes += [
+        SceneGrade(
+            name=name,
+            purpose="",
+            verdict="grader_error",
+            credit=0.0,
+            reason=f"raytruth itself failed: {why}",
+            is_private=name in occasion.private,
+        )
+        for name, why in failures.items()
+    ]
+    return tuple(sorted(scenes, key=lambda it: it.name))
 
 
 def _topic_grades(
@@ -153,12 +183,13 @@ def _mistake_grades(
     return tuple(MistakeGrade(name=it.name, words=it.words, hint=it.hint, charge=lost / len(reading)) for it in reading)
 
 
-def _scene_grade(picture: GradedPicture, assignment: Assignment) -> SceneGrade:
+def _scene_grade(picture: GradedPicture, assignment: Assignment, *, is_private: bool) -> SceneGrade:
     """What came of a scene that was rendered, or that the program could not render."""
     counts, given, scene = picture.counts, picture.submitted, picture.scene
     credit = scene_credit(counts, assignment)
     features = tuple(sorted(name.lower().replace("_", " ") for name in required_features(scene)))
     told = {"name": scene.name, "purpose": scene.purpose, "features": features, "credit": credit}
+    told["is_private"] = is_private
     if given.image is None:
         return SceneGrade(**told, verdict="error", reason=given.problem, seconds=given.seconds)
     region = None

@@ -18,6 +18,8 @@ class TopicGrade(Record):
     points: float
     maximum: float
     scenes: tuple[str, ...]
+    hidden: float = 0.0
+    """Of the maximum what private scenes decide, in a record for a student who is not told of them yet."""
 
 
 class SceneGrade(Record):
@@ -37,6 +39,8 @@ class SceneGrade(Record):
     """The least rectangle around all wrong pixels: first and last column, first and last row."""
     features: tuple[str, ...] = ()
     seconds: float | None = None
+    is_private: bool = False
+    """Whether students are told of it after the deadline only."""
 
 
 class MistakeGrade(Record):
@@ -82,6 +86,14 @@ class Grade(Record):
     attempt: int
     told: Literal["score", "topics", "scenes", "pixels", "diagnosis"]
     """How much of this its student is told."""
+    seed: int = 0
+    """What was added to the seeds of scenes that are drawn."""
+    date: str | None = None
+    """When it was handed in, in ISO 8601; None where nobody said."""
+    tells_private: bool = True
+    """Whether its student is told of private scenes, too."""
+    hidden: float = 0.0
+    """As of topics, of all points."""
     status: Literal["graded", "grader_error"] = "graded"
     score: float
     maximum: float

@@ -9,6 +9,7 @@ from raytruth.comparisons.faults.catalogue import all_faults
 from raytruth.comparisons.faults.variants import all_variants
 from raytruth.comparisons.kills import kill_run
 from raytruth.comparisons.kills.kill_matrix import KillCell, SceneKills
+from raytruth.comparisons.matrix.quick_suite import small
 from raytruth.scenes.library import open_scene
 from tests.raytruth.running import refusal, run
 
@@ -54,3 +55,42 @@ def test_bad_usage_is_refused_in_one_sentence(tmp_path: Path, capsys: pytest.Cap
     assert "no-such-scene" in refusal(capsys, "faults", "no-such-scene", "--out", str(tmp_path))
     assert "--quick" in refusal(capsys, "run", "single-sphere", "--quick", "--out", str(tmp_path))
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.clause("GRD-10")
+def test_a_scene_is_scored_and_entered_into_a_board_unless_it_flags_what_is_right(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    board = tmp_path / "board.json"
+    options = ("faults", "--scene", "ambient-sphere", "--out", str(tmp_path), "--leaderboard", str(board))
+    survivor, flagged = next(iter(all_faults())), next(iter(all_variants()))
+    keep(tmp_path, survivor=survivor, flagged=flagged)
+    status, out, _ = run(capsys, *options, "--by", "Ada")
+    assert status == 1
+    assert f"has no place on a board: {flagged}" in out
+    assert not board.exists()
+    keep(tmp_path, survivor=survivor)
+    status, out, _ = run(capsys, *options, "--by", "Ada")
+    assert status == 0
+    pixels = small(open_scene("ambient-sphere")).camera
+    count = len(all_faults())
+    worth = f"{count - 1} of {count} faults with {pixels.width * pixels.height} pixels"
+    assert f"ambient-sphere finds {worth}." in out
+    assert f"1. Ada: {worth}" in out
+    keep(tmp_path)
+    status, out, _ = run(capsys, *options, "--json")
+    document = json.loads(out)
+    assert (document["killed"], document["missed"]) == (count, [])
+    assert [it["name"] for it in document["leaderboard"]] == ["ambient-sphere", "Ada"]
+    assert not (tmp_path / "faults.json").exists()
+
+
+@pytest.mark.clause("CMD-2")
+def test_what_does_not_go_with_a_scene_to_score_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "board.json").write_text("[]")
+    out = ("--out", str(tmp_path))
+    assert "expected --scene FILE" in refusal(capsys, "faults", "--by", "Ada", *out)
+    assert "no other scenes" in refusal(capsys, "faults", "two-lights", "--scene", "ambient-sphere", *out)
+    board = ("--leaderboard", str(tmp_path / "board.json"))
+    assert "expected a leaderboard" in refusal(capsys, "faults", "--scene", "ambient-sphere", *board, *out)
+    assert "--by: expected a name" in refusal(capsys, "faults", "--scene", "ambient-sphere", "--by", "", *out)

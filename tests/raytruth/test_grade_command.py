@@ -122,3 +122,46 @@ def test_a_run_that_raytruth_fails_in_leaves_a_result_without_a_score_and_never_
     monkeypatch.setattr("raytruth.comparisons.grading.grade.graded_picture", int)  # of a program: an error
     assert run(capsys, "grade", *files, *command)[0] == 3
     assert {path: path.read_bytes() for path in kept} == kept
+
+
+PRIVATE = """deadline = 2026-12-01T00:00:00Z
+drawn = "anew"
+"""
+DRAWN = """private_scenes = ["single-plane"]
+[[topics.families]]
+family = "scale"
+parameter = 1.0
+seeds = [1]
+"""
+
+
+@pytest.mark.clause("GRD-8")
+def test_private_scenes_are_told_after_the_deadline_and_a_submission_keeps_its_scenes(
+    command: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "one.toml").write_text(ASSIGNMENT.replace("models", f"{PRIVATE}models", 1) + DRAWN)
+    (tmp_path / "black.py").write_text("raise SystemExit('no picture')")  # which is quickly judged
+    (tmp_path / "metadata.json").write_text(json.dumps({"id": 12, "previous_submissions": [{"results": {"score": 1}}]}))
+    told = {}
+    for month in ("11", "12"):
+        options = ("--date", f"2026-{month}-30T00:00:00Z", "--submission-metadata", "metadata.json")
+        files = ("--out", month, "--gradescope", f"{month}.json")
+        status, told[month], _ = run(capsys, "grade", *options, *files, *command)
+        assert status == 1
+    first, second = (json.loads((tmp_path / month / "grade.json").read_text()) for month in told)
+    assert first["attempt"] == 2
+    assert first["seed"] == second["seed"] != 0
+    assert [it["name"] for it in first["scenes"]] == [it["name"] for it in second["scenes"]]
+    assert "33.33 more are decided by scenes that are told after the deadline" in told["11"]
+    assert "single-plane" not in told["11"]
+    assert "single-plane" not in (tmp_path / "11" / "student.html").read_text()
+    assert "single-plane" not in (tmp_path / "11.json").read_text()
+    assert "single-plane" in told["12"]
+    assert "single-plane" in (tmp_path / "11" / "teacher.html").read_text()
+
+
+@pytest.mark.clause("CMD-2")
+def test_a_wrong_date_or_metadata_is_one_sentence(command: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert "--date: expected a date with time and offset" in refusal(capsys, "grade", "--date", "today", *command)
+    told = refusal(capsys, "grade", "--submission-metadata", "none.json", *command)
+    assert "--submission-metadata: none.json: expected Gradescope's submission_metadata.json" in told

@@ -1,6 +1,7 @@
 // A Whitted ray tracer, written to raytruth's docs/spec.md, whose clauses are named behind the lines they belong to.
 //
-//     tracer SCENE.json OUTPUT.pfm
+//     tracer SCENE.json OUTPUT.pfm                      the picture
+//     tracer SCENE.json OUTPUT.pfm --trace COLUMN ROW   the rays of one pixel, for `raytruth trace`
 //
 // -DREAL=float computes in float32. -DEPSILON=1e-3 keeps a ray from the surface that it leaves by a least distance,
 // as many tracers do; without it the surface is left out by its number, as the specification has it.
@@ -9,11 +10,13 @@
 #include "scene.hpp"
 
 static Scene scene;
+static bool traced = false;  // whether the rays of one pixel are printed
 const int NOTHING = -1;
 
 struct Ray {
     Vec origin, direction;  // the direction is a unit vector
     int leaves = NOTHING;   // the primitive on whose surface the ray starts
+    std::string path = "";  // which mirrors (M), reflections (R) and refractions (T) of glass it has come by; if traced
 };
 struct Hit {
     real distance;
@@ -124,6 +127,21 @@ Vec lit_by(const Light& light, Vec point, Vec normal, Vec view, Vec reflected, c
     return (light.directional ? 1 : attenuation(light, distance)) * (weight * light.intensity);
 }
 
+// The ray as a line of JSON, and what comes of it, if the rays of a pixel are asked for.
+void note(const Ray& ray, Hit hit, Vec normal, Vec local, Vec color) {
+    if (!traced) return;
+    std::printf("{\"path\": \"%s\"", ray.path.c_str());
+    auto print = [](const char* name, Vec v) {
+        std::printf(", \"%s\": [%.17g, %.17g, %.17g]", name, double(v.x), double(v.y), double(v.z));
+    };
+    print("origin", ray.origin), print("direction", ray.direction), print("local", local), print("color", color);
+    if (hit.primitive != NOTHING) std::printf(", \"distance\": %.17g", double(hit.distance)), print("normal", normal);
+    std::printf(", \"primitive\": %d}\n", hit.primitive);
+}
+
+// The path of a ray that goes on from this one.
+std::string after(const Ray& ray, char way) { return traced ? ray.path + way : ray.path; }
+
 Vec radiance(const Ray& ray, const Material* medium, int depth);
 
 // What a dielectric reflects and refracts (REFR). `normal` is turned to the ray's origin.
@@ -134,7 +152,7 @@ Vec through(const Ray& ray, const Material& material, bool enters, Vec normal, c
     real eta = enters ? glass.index / outer : outer / glass.index;  // REFR-1
     real c = -dot(ray.direction, normal);
     real g_squared = eta * eta - 1 + c * c;  // REFR-2
-    Vec mirrored = radiance(reflected, medium, depth - 1);
+    Vec mirrored = radiance({reflected.origin, reflected.direction, reflected.leaves, after(ray, 'R')}, medium, depth - 1);
     if (g_squared < 0) return glass.reflectance ? *glass.reflectance * mirrored : mirrored;  // REFR-5, REFR-6
     real g = std::sqrt(g_squared);
     real r_s = (c - g) / (c + g), r_p = (eta * eta * c - g) / (eta * eta * c + g);
@@ -142,7 +160,7 @@ Vec through(const Ray& ray, const Material& material, bool enters, Vec normal, c
     real scale = scene.radiometric ? 1 / (eta * eta) : 1;
     Vec transmittance = scale * (1 - fresnel) * Vec{1, 1, 1}, reflectance = fresnel * Vec{1, 1, 1};
     if (glass.reflectance) reflectance = *glass.reflectance, transmittance = *glass.transmittance;  // REFR-6
-    Ray refracted{reflected.origin, (ray.direction + (c - g) * normal) / eta, reflected.leaves};  // REFR-3
+    Ray refracted{reflected.origin, (ray.direction + (c - g) * normal) / eta, reflected.leaves, after(ray, 'T')};  // REFR-3
     const Material* beyond = enters ? &material : glass.outside;  // REFR-9
     return reflectance * mirrored + transmittance * radiance(refracted, beyond, depth - 1);
 }
@@ -150,7 +168,11 @@ Vec through(const Ray& ray, const Material& material, bool enters, Vec normal, c
 // The radiance that comes back along the ray, which has `depth` reflections and refractions left (TREE).
 Vec radiance(const Ray& ray, const Material* medium, int depth) {
     Hit hit = first_hit(ray);
-    if (hit.primitive == NOTHING) return background(ray.direction);  // BG-3: not absorbed
+    if (hit.primitive == NOTHING) {
+        Vec seen = background(ray.direction);  // BG-3: not absorbed
+        note(ray, hit, {}, seen, seen);
+        return seen;
+    }
     Vec point = ray.origin + hit.distance * ray.direction;
     const Material* found;
     Vec normal;  // the shape's own
@@ -169,7 +191,7 @@ Vec radiance(const Ray& ray, const Material* medium, int depth) {
     const Material& material = *found;
     bool enters = dot(ray.direction, normal) < 0;  // ILL-1
     if (!enters) normal = -normal;
-    Ray reflected{point, ray.direction - 2 * dot(ray.direction, normal) * normal, hit.primitive};  // REFL-1
+    Ray reflected{point, ray.direction - 2 * dot(ray.direction, normal) * normal, hit.primitive, after(ray, 'M')};  // REFL-1
 
     Vec sum;
     if (material.emission) sum = sum + material.emission->at(point);
@@ -177,13 +199,18 @@ Vec radiance(const Ray& ray, const Material* medium, int depth) {
     if (material.diffuse || material.specular)
         for (const Light& light : scene.lights)
             sum = sum + lit_by(light, point, normal, ray.direction, reflected.direction, material, hit.primitive);
+    Vec local = sum;
     if (depth > 0 && material.mirror) sum = sum + *material.mirror * radiance(reflected, medium, depth - 1);  // REFL-2
     if (depth > 0 && material.dielectric)
         sum = sum + through(ray, material, enters, normal, reflected, medium, depth);
 
-    if (!medium || !medium->dielectric->absorption) return sum;
-    Vec sigma = *medium->dielectric->absorption;  // REFR-7
-    return sum * Vec{std::exp(-sigma.x * hit.distance), std::exp(-sigma.y * hit.distance), std::exp(-sigma.z * hit.distance)};
+    if (medium && medium->dielectric->absorption) {
+        Vec sigma = *medium->dielectric->absorption;  // REFR-7
+        real d = hit.distance;
+        sum = sum * Vec{std::exp(-sigma.x * d), std::exp(-sigma.y * d), std::exp(-sigma.z * d)};
+    }
+    note(ray, hit, normal, local, sum);
+    return sum;
 }
 
 Ray camera_ray(int column, int row) {  // CAM-3, CAM-4, IMG-1
@@ -196,8 +223,13 @@ Ray camera_ray(int column, int row) {  // CAM-3, CAM-4, IMG-1
 }
 
 int main(int count, char** arguments) try {
-    if (count != 3) throw std::runtime_error("usage: tracer SCENE.json OUTPUT.pfm");
+    traced = count == 6 && std::string(arguments[3]) == "--trace";
+    if (count != 3 && !traced) throw std::runtime_error("usage: tracer SCENE.json OUTPUT.pfm [--trace COLUMN ROW]");
     load(arguments[1], scene);
+    if (traced) {
+        radiance(camera_ray(std::stoi(arguments[4]), std::stoi(arguments[5])), scene.camera.inside, scene.max_depth);
+        return 0;
+    }
     std::vector<float> image;
     for (int row = scene.camera.height - 1; row >= 0; --row)  // a PFM begins with the bottom row
         for (int column = 0; column < scene.camera.width; ++column) {

@@ -1,10 +1,12 @@
 """A Whitted ray tracer, written to raytruth's docs/spec.md, whose clauses are named beside the lines they belong to.
 
-python3 tracer.py SCENE.json OUTPUT.pfm
+python3 tracer.py SCENE.json OUTPUT.pfm                         # the picture
+python3 tracer.py SCENE.json OUTPUT.pfm --trace COLUMN ROW      # the rays of one pixel, for `raytruth trace`
 """
 
 from __future__ import annotations
 
+import json
 import sys
 from array import array
 from dataclasses import dataclass
@@ -20,6 +22,9 @@ if TYPE_CHECKING:
 
 Primitive = Sphere | Triangle | Plane
 
+TRACED = sys.argv[3:]
+"""--trace COLUMN ROW, or nothing."""
+
 
 @dataclass(slots=True)
 class Ray:
@@ -28,6 +33,7 @@ class Ray:
     origin: Vec
     direction: Vec
     leaves: Primitive | None = None
+    path: str = ""  # which mirrors (M), reflections (R) and refractions (T) of glass it has come by
 
 
 def meet_sphere(ray: Ray, sphere: Sphere) -> float:
@@ -141,7 +147,9 @@ def radiance(scene: Scene, ray: Ray, medium: Material | None, depth: int) -> Vec
     """The light that comes back along a ray which has `depth` reflections and refractions left. TREE."""
     distance, primitive = first_hit(scene, ray)
     if primitive is None:
-        return background(scene, ray.direction)  # BG-3: not absorbed
+        seen = background(scene, ray.direction)  # BG-3: not absorbed
+        note(scene, ray, None, local=seen, color=seen)
+        return seen
     point = add(ray.origin, scale(distance, ray.direction))
     is_sphere = isinstance(primitive, Sphere)
     normal = unit(subtract(point, primitive.center)) if is_sphere else primitive.normal  # SPH-5
@@ -160,14 +168,17 @@ def radiance(scene: Scene, ray: Ray, medium: Material | None, depth: int) -> Vec
     if material.diffuse is not None or material.specular is not None:
         for light in scene.lights:
             total = add(total, lit_by(scene, light, ray, reflected, normal, material))
+    local = total
     if depth > 0 and material.mirror is not None:  # REFL-2
+        reflected.path = ray.path + "M"
         total = add(total, multiply(material.mirror, radiance(scene, reflected, medium, depth - 1)))
     if depth > 0 and material.dielectric is not None:
         total = add(total, through(scene, ray, reflected, normal, enters, medium, depth))
 
-    if medium is None or medium.dielectric.absorption is None:
-        return total
-    return multiply(total, tuple(exp(-sigma * distance) for sigma in medium.dielectric.absorption))  # REFR-7
+    if medium is not None and medium.dielectric.absorption is not None:
+        total = multiply(total, tuple(exp(-sigma * distance) for sigma in medium.dielectric.absorption))  # REFR-7
+    note(scene, ray, primitive, distance=distance, normal=normal, local=local, color=total)
+    return total
 
 
 def through(
@@ -180,6 +191,7 @@ def through(
     eta = glass.index / outer if enters else outer / glass.index  # REFR-1
     c = -dot(ray.direction, normal)
     g_squared = eta * eta - 1 + c * c  # REFR-2
+    reflected.path = ray.path + "R"
     mirrored = radiance(scene, reflected, medium, depth - 1)
     if g_squared < 0:
         return multiply(glass.reflectance, mirrored) if glass.reflectance else mirrored  # REFR-5, REFR-6
@@ -192,8 +204,19 @@ def through(
     transmittance = glass.transmittance or (transmitted,) * 3
     refracted = scale(1 / eta, add(ray.direction, scale(c - g, normal)))  # REFR-3
     beyond = material if enters else glass.outside  # REFR-9
-    behind = radiance(scene, Ray(reflected.origin, refracted, reflected.leaves), beyond, depth - 1)
+    behind = radiance(scene, Ray(reflected.origin, refracted, reflected.leaves, ray.path + "T"), beyond, depth - 1)
     return add(multiply(reflectance, mirrored), multiply(transmittance, behind))
+
+
+def note(scene: Scene, ray: Ray, primitive: Primitive | None, **told: object) -> None:
+    """Print a ray and what came of it as a line of JSON, if the rays of a pixel are asked for."""
+    if not TRACED:
+        return
+    triangles = (triangle for cluster in scene.clusters for triangle in cluster.triangles)
+    numbers = {id(shape): number for number, shape in enumerate([*scene.spheres, *triangles, *scene.planes])}
+    hit = None if primitive is None else numbers[id(primitive)]
+    told = {"path": ray.path, "origin": ray.origin, "direction": ray.direction, "primitive": hit, **told}
+    print(json.dumps(told))
 
 
 def camera_ray(camera: Camera, column: int, row: int) -> Ray:
@@ -210,6 +233,9 @@ def main(scene_file: str, output: str) -> None:
     """Render the scene and write it as a PFM, whose first row is the bottom one."""
     scene = load(Path(scene_file))
     camera = scene.camera
+    if TRACED:
+        radiance(scene, camera_ray(camera, int(TRACED[1]), int(TRACED[2])), camera.inside, scene.max_depth)
+        return
     values: list[float] = []
     for row in reversed(range(camera.height)):
         for column in range(camera.width):
@@ -220,6 +246,6 @@ def main(scene_file: str, output: str) -> None:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit("usage: tracer.py SCENE.json OUTPUT.pfm")
+    if len(sys.argv) != 3 and (len(sys.argv) != 6 or sys.argv[3] != "--trace"):
+        sys.exit("usage: tracer.py SCENE.json OUTPUT.pfm [--trace COLUMN ROW]")
     main(sys.argv[1], sys.argv[2])

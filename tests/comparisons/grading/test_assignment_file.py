@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import tomllib
+from datetime import UTC, datetime, timedelta
 from typing import TYPE_CHECKING
 
 import pytest
@@ -12,7 +13,8 @@ from raytruth.comparisons.grading.assignment_file import (
     load_assignment,
     ready_names,
 )
-from raytruth.comparisons.grading.assignment_scenes import scenes_of
+from raytruth.comparisons.grading.assignment_scenes import private_names, scenes_of
+from raytruth.scenes.families.catalogue import FAMILIES
 from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
@@ -29,6 +31,7 @@ id = "one"
 title = "One"
 scenes = ["single-sphere"]
 """
+FAMILY = sorted(FAMILIES)[0]
 
 
 def problems(folder: Path, text: str) -> list[str]:
@@ -105,3 +108,66 @@ def test_the_first_attempts_may_be_told_less(tmp_path: Path) -> None:
     path.write_text(RIGHT.replace("[[models]]", "feedback = ['score', 'topics']\n[[models]]"))
     assignment = load_assignment(path)
     assert [assignment.told(attempt) for attempt in (1, 2, 3)] == ["score", "topics", "topics"]
+
+
+def with_keys(text: str) -> str:
+    return RIGHT.replace("[[models]]", f"{text}\n[[models]]")
+
+
+def test_dates_alter_what_is_told_from_then_on_whichever_attempt_it_is(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    dated = """
+    [[dated_feedback]]
+    since = 2026-12-08T00:00:00Z
+    told = "diagnosis"
+    [[dated_feedback]]
+    since = 2026-12-01T00:00:00+01:00
+    told = "scenes"
+    """
+    path.write_text(with_keys("feedback = ['score', 'topics']" + dated))
+    assignment = load_assignment(path)
+    first, second = (datetime(2026, 12, day, tzinfo=UTC) for day in (1, 8))
+    before = datetime(2026, 11, 30, 22, 59, tzinfo=UTC)
+    assert [assignment.told(2, date) for date in (None, before, first, second)] == [
+        "topics",
+        "topics",
+        "scenes",
+        "diagnosis",
+    ]
+
+
+def test_private_scenes_are_graded_and_told_after_the_deadline(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    drawn = "[[topics.families]]\nfamily = 'spheres'\nparameter = 3.0\nseeds = [1]\nprivate_seeds = [5, 6]\n"
+    text = with_keys("deadline = 2026-12-01T00:00:00Z\ndrawn = 'anew'") + "private_scenes = ['single-plane']\n" + drawn
+    path.write_text(text.replace("'spheres'", f"'{FAMILY}'"))
+    assignment = load_assignment(path)
+    for seed in (0, 7):
+        names = {scene.name for scene in scenes_of(assignment, tmp_path, seed)["one"]}
+        private = private_names(assignment, seed)
+        assert private == {"single-plane", *(f"{FAMILY}-3-{seed + own}" for own in (5, 6))}
+        assert names - private == {"single-sphere", f"{FAMILY}-3-{seed + 1}"}
+    deadline = datetime(2026, 12, 1, tzinfo=UTC)
+    told = [assignment.tells_private(date) for date in (None, deadline - timedelta(seconds=1), deadline)]
+    assert told == [False, False, True]
+
+
+def test_what_does_not_go_together_is_told_at_once(tmp_path: Path) -> None:
+    told = problems(
+        tmp_path,
+        with_keys("deadline = 2026-12-01T00:00:00\ndrawn = 'anew'\ndated_feedback = [{ since = 'soon', told = 'al' }]")
+        + "private_scenes = ['single-plane']\n",
+    )
+    assert [problem.split(": ")[0] for problem in told] == [
+        "dated_feedback[0].since",
+        "dated_feedback[0].told",
+        "deadline",
+        "drawn",
+    ]
+    assert "without quotes" in told[0]
+    assert "expected a date with its offset from UTC, as 2026-12-01T00:00:00+01:00" in told[2]
+    assert "expected families" in told[3]
+    (told_of_topic,) = problems(tmp_path, f"{RIGHT}private_scenes = ['single-plane']\n")
+    assert told_of_topic.startswith("topics[0]: expected a deadline beside private scenes")
+    (told_of_family,) = problems(tmp_path, f"{RIGHT}[[topics.families]]\nfamily = '{FAMILY}'\nparameter = 3.0\n")
+    assert told_of_family == "topics[0].families[0]: expected seeds or private_seeds, found neither."
