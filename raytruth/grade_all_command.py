@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from contextlib import contextmanager
+from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING
 from pydantic import ValidationError
 
 from raytruth.bundles import opened_assignment
+from raytruth.comparisons.attacks.ladder import Choice  # noqa: TC001 - as AsJson
 from raytruth.comparisons.classes.archives import EXPORT_ROOM, ArchiveError, is_archive, unpack
 from raytruth.comparisons.classes.class_files import kept_pictures
 from raytruth.comparisons.classes.class_run import class_rows, plan_of
@@ -21,7 +23,7 @@ from raytruth.comparisons.classes.likeness import likenesses
 from raytruth.comparisons.classes.workers import ClusterError, cluster_workers, local_workers
 from raytruth.comparisons.grading.assignment import Assignment
 from raytruth.comparisons.grading.assignment_file import STARTING
-from raytruth.comparisons.grading.assignment_scenes import scenes_of
+from raytruth.comparisons.grading.assignment_scenes import private_names, scenes_of
 from raytruth.comparisons.grading.feedback import for_student
 from raytruth.comparisons.grading.grade import Occasion
 from raytruth.comparisons.records.class_results import CLASS_FILE, STUDENTS_FOLDER, ClassResults, Service
@@ -47,6 +49,7 @@ from raytruth.reports.class_tables import (
 from raytruth.reports.grade_pages import STUDENT_PAGE, TEACHER_PAGE, grade_page
 from raytruth.reports.grade_text import points
 from raytruth.reports.service_results import service_results
+from raytruth.sandboxed_programs import tell_sandbox
 from raytruth.scenes.validation import problems_of
 
 if TYPE_CHECKING:
@@ -77,6 +80,7 @@ def grade_all(
     seed: int = 0,
     workers: int = WORKERS,
     scheduler: str | None = None,
+    sandbox: Choice = "auto",
     results_for: Service | None = None,
     regrade: bool = False,
     fresh: bool = False,
@@ -107,6 +111,9 @@ def grade_all(
         How many submissions are graded side by side on this machine.
     scheduler
         The address of a Dask scheduler, as tcp://host:8786: its workers grade in place of this machine.
+    sandbox
+        What submissions are built and run in (docs/sandboxes.md): auto is the first that works of bubblewrap,
+        landlock, user; and for an ordinary user, if none of them does, none.
     results_for
         Write each student's results.json as gradescope, prairielearn or github-classroom reads it.
     regrade
@@ -130,7 +137,13 @@ def grade_all(
         found = submissions_in(folder)
         if not found:
             raise UsageError(f"{submissions}: expected a folder or an archive for each student, found none.")
-        plan = plan_of(found, out, opened, topics, Occasion(stage, attempt), regrade=regrade, fresh=fresh)
+        occasion = Occasion(stage, attempt, datetime.now(UTC), seed, private_names(opened, seed))
+        hidden = (folder, submissions, out, path, cache_folder())
+        plan = plan_of(
+            found, out, opened, topics, occasion, sandbox=sandbox, hidden=hidden, regrade=regrade, fresh=fresh
+        )
+        if scheduler is None and plan.left:  # a cluster's workers find out for themselves
+            tell_sandbox(sandbox)
         rows = _graded(plan, workers, scheduler, results_for)
     results = _results(plan, rows)
     _write(results, out)

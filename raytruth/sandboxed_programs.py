@@ -21,14 +21,23 @@ if TYPE_CHECKING:
     from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
 
 
+def tell_sandbox(choice: Choice) -> RungResult:
+    """The sandbox that programs run in, and what it holds, which is told. Raises UsageError if it does not work."""
+    try:
+        result = chosen(choice)
+    except SandboxError as error:
+        raise UsageError(f"--sandbox {choice}: {error}.") from error
+    tell(sandbox_sentence(result))
+    return result
+
+
 @contextmanager
 def sandboxed(
     program: ProgramRenderer, choice: Choice, hidden: Iterable[Path], shown: Iterable[Path]
 ) -> Iterator[tuple[ProgramRenderer, RungResult]]:
     """The program as it is to run, and what its sandbox holds, which is told. Raises UsageError if it does not work."""
+    result = tell_sandbox(choice)
     try:
-        result = chosen(choice)
-        tell(sandbox_sentence(result))
         if result.rung == "none":
             yield program, result
             return

@@ -77,10 +77,10 @@ def given_digest(submission: Submission, asked: str) -> str:
 
 
 def asked_digest(assignment: Assignment, scenes: Iterable[str], occasion: Occasion) -> str:
-    """Of an assignment, its scenes as JSON, and the occasion."""
-    text = json.dumps(
-        [assignment.model_dump(mode="json"), sorted(scenes), occasion.stage, occasion.attempt], sort_keys=True
-    )
+    """Of an assignment, its scenes as JSON, and the occasion, of whose date what students are told by then."""
+    told = [assignment.told(occasion.attempt, occasion.date), assignment.tells_private(occasion.date)]
+    asked = [assignment.model_dump(mode="json"), sorted(scenes), occasion.stage, occasion.attempt, *told]
+    text = json.dumps(asked, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
 

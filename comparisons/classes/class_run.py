@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
     from pathlib import Path
 
+    from raytruth.comparisons.attacks.ladder import Choice
     from raytruth.comparisons.classes.exports import Submission
     from raytruth.comparisons.grading.assignment import Assignment
     from raytruth.comparisons.grading.grade import Occasion
@@ -60,6 +61,10 @@ class ClassPlan:
     """The rows of those that need not be graded again."""
     by_other_code: int
     """How many of these were graded by another state of raytruth."""
+    sandbox: Choice
+    """What submissions are built and run in."""
+    hidden: tuple[Path, ...]
+    """What they must not see there."""
 
     @property
     def left(self) -> list[str]:
@@ -84,6 +89,8 @@ def plan_of(
     topics: Mapping[str, Sequence[Scene]],
     occasion: Occasion,
     *,
+    sandbox: Choice = "auto",
+    hidden: tuple[Path, ...] = (),
     regrade: bool = False,
     fresh: bool = False,
 ) -> ClassPlan:
@@ -105,7 +112,7 @@ def plan_of(
             continue
         kept[folder] = found.row
         others += found.code != code
-    return ClassPlan(out, assignment, topics, occasion, folders, given, kept, others)
+    return ClassPlan(out, assignment, topics, occasion, folders, given, kept, others, sandbox, hidden)
 
 
 def class_rows(
@@ -122,7 +129,7 @@ def class_rows(
         # A few more than can be worked at, so that nobody waits for the next; not all, so that little is dropped.
         while waiting and len(running) < 2 * workers:
             folder = waiting.pop()
-            job = Job(plan.folders[folder], plan.assignment, plan.topics, plan.occasion)
+            job = Job(plan.folders[folder], plan.assignment, plan.topics, plan.occasion, plan.sandbox, plan.hidden)
             running[pool.submit(apart, graded_here, job)] = folder
         for done in wait(running, return_when=FIRST_COMPLETED).done:
             folder = running.pop(done)

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import time
 from concurrent.futures import Executor, Future
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Literal
 
+from raytruth.comparisons.attacks.ladder import chosen
 from raytruth.comparisons.classes.archives import ArchiveError
 from raytruth.comparisons.classes.likeness import explained_by, telling_pixels
 from raytruth.comparisons.classes.preparation import BuildError, NoProgramError, prepared
 from raytruth.comparisons.grading.grade import grade_submission
+from raytruth.comparisons.grading.sandboxed_submission import in_sandbox
 from raytruth.comparisons.grading.scene_grading import GradedPicture
 from raytruth.comparisons.renderers.program.declared_model import output_model_of
 
@@ -22,6 +25,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from raytruth.comparisons.attacks.ladder import Choice
     from raytruth.comparisons.classes.exports import Submission
     from raytruth.comparisons.grading.assignment import Assignment
     from raytruth.comparisons.grading.grade import Occasion
@@ -37,6 +41,10 @@ class Job:
     assignment: Assignment
     topics: Mapping[str, Sequence[Scene]]
     occasion: Occasion
+    sandbox: Choice = "auto"
+    """What it is built and runs in."""
+    hidden: tuple[Path, ...] = ()
+    """What it must not see there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,9 +87,12 @@ def graded_here(job: Job) -> Outcome:
 
 
 def _outcome(job: Job) -> Outcome:
+    """Raises SandboxError where there is no sandbox to run it in."""
+    held = chosen(job.sandbox)
+    rung = None if held.rung == "none" else held.rung
     with TemporaryDirectory(prefix="raytruth-") as name:
         try:
-            program = prepared(job.submission, Path(name), job.assignment)
+            program = prepared(job.submission, Path(name), job.assignment, rung)
         except ArchiveError as error:
             return Outcome("refused", str(error))
         except NoProgramError as error:
@@ -89,8 +100,9 @@ def _outcome(job: Job) -> Outcome:
         except BuildError as error:
             return Outcome("build_failed", str(error))
         worker = _InThisProcess()
-        grade = grade_submission(program, job.assignment, job.topics, job.occasion, worker)
-    grade = grade.model_copy(update={"submission": job.submission.student})
+        with nullcontext(program) if rung is None else in_sandbox(program, rung, job.hidden) as confined:
+            grade = grade_submission(confined, job.assignment, job.topics, job.occasion, worker)
+    grade = grade.model_copy(update={"submission": job.submission.student, "sandbox": held})
     declared = output_model_of(program.declaration)
     told = explained_by(grade, declared)
     pictures = {

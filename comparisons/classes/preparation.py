@@ -16,12 +16,14 @@ from raytruth.comparisons.renderers.program.declaration_file import (
     checked_declaration,
     load_declaration,
 )
+from raytruth.comparisons.sandboxes.sandbox import Sandbox
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from raytruth.comparisons.classes.exports import Submission
     from raytruth.comparisons.grading.assignment import Assignment
+    from raytruth.comparisons.sandboxes.sandbox import Rung
 
 DECLARATION = "tracer.toml"
 """The file in which a submission says how it is run, unless the assignment does."""
@@ -35,8 +37,8 @@ class BuildError(Exception):
     """A submission cannot be built; the message is one sentence with the end of its log."""
 
 
-def prepared(submission: Submission, folder: Path, assignment: Assignment) -> ProgramRenderer:
-    """The program of a submission, unpacked into `folder` and built.
+def prepared(submission: Submission, folder: Path, assignment: Assignment, rung: Rung | None) -> ProgramRenderer:
+    """The program of a submission, unpacked into `folder` and built, in a sandbox unless `rung` is None.
 
     Raises ArchiveError, NoProgramError and BuildError, each with its sentence.
     """
@@ -51,7 +53,7 @@ def prepared(submission: Submission, folder: Path, assignment: Assignment) -> Pr
         unpack(archives[0], folder / "inner")
         root = _root(folder / "inner")
     if assignment.build:
-        _build(root, assignment)
+        _build(root, assignment, rung)
     return _program(root, assignment)
 
 
@@ -64,7 +66,7 @@ def _root(folder: Path) -> Path:
     return _root(entries[0]) if len(entries) == 1 and entries[0].is_dir() else folder
 
 
-def _build(root: Path, assignment: Assignment) -> None:
+def _build(root: Path, assignment: Assignment, rung: Rung | None) -> None:
     try:
         run_isolated(
             shlex.split(assignment.build),
@@ -72,6 +74,7 @@ def _build(root: Path, assignment: Assignment) -> None:
             seconds=assignment.build_seconds,
             memory_bytes=assignment.limits.memory_mib * MEBIBYTE,
             file_bytes=assignment.limits.output_mib * MEBIBYTE,
+            sandbox=None if rung is None else Sandbox(rung),
         )
     except RendererError as error:
         raise BuildError(f"It could not be built: {error}.") from error

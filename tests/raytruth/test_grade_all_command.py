@@ -1,21 +1,20 @@
 from __future__ import annotations
 
+import contextlib
 import csv
 import json
+import os
 import shutil
 import signal
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from tests.comparisons.classes.small_class import written_assignment, written_submission
 from tests.raytruth.running import refusal, run
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 pytestmark = pytest.mark.clause("CLA-2", "CLA-3", "CMD-1", "CMD-2")
 
@@ -103,22 +102,50 @@ def test_bad_usage_is_one_sentence_and_leaves_nothing(folder: Path, capsys: pyte
     assert not list(folder.rglob("class.json"))
 
 
+@pytest.mark.clause("SBX-3")
+def test_submissions_are_built_and_run_where_they_see_no_other(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ada = written_submission(folder / "class" / "ada")
+    spying = f"""
+if os.path.exists({str(ada / "tracer.py")!r}) or os.path.exists({str(folder / "graded")!r}):
+    open("seen", "w").close()
+if len(sys.argv) == 2:
+    sys.exit()
+if os.path.exists("seen") or os.path.exists(os.path.join(os.path.dirname(__file__), "seen")):
+    sys.exit("seen")
+"""
+    written_submission(folder / "class" / "ben", spying)
+    build = f'{sys.executable} -c \'import os, runpy, sys; sys.argv[1:] = ["b"]; runpy.run_path("tracer.py")\''
+    _, out, _ = run(capsys, "grade-all", "class", "--assignment", "one.toml", "--build", build, "--json")
+    scores = {row["student"]: row["score"] for row in json.loads(out)["rows"]}
+    grade = json.loads(next((folder / "graded" / "students").glob("ben*/grade.json")).read_text())
+    assert scores["ben"] == (0 if grade["sandbox"]["rung"] == "none" else 100)
+
+
+def _running(command: tuple[str, ...]) -> bool:
+    """Whether a process of this machine runs just this."""
+    for process in Path("/proc").glob("[0-9]*/cmdline"):
+        with contextlib.suppress(OSError):  # it has ended
+            if process.read_bytes().split(b"\0")[: len(command)] == [word.encode() for word in command]:
+                return True
+    return False
+
+
 def test_a_class_that_is_killed_goes_on_and_leaves_no_process(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for name in ("ada", "ben"):
         written_submission(folder / "class" / name)
-    written_submission(
-        folder / "class" / "cleo", f"open({str(folder / 'pid')!r}, 'w').write(str(os.getpid())); time.sleep(60)"
-    )
+    sleep = ("/bin/sleep", f"60.{os.getpid()}")  # a length that tells it from all others, also inside a sandbox
+    written_submission(folder / "class" / "cleo", f"os.execv({sleep[0]!r}, {list(sleep)!r})")
     command = [sys.executable, "-m", "raytruth", "grade-all", "class", "--assignment", "one.toml"]
     first = subprocess.Popen(command, cwd=folder, stderr=subprocess.DEVNULL)
     rows = folder / "graded" / "students"
-    while len(list(rows.glob("*/row.json"))) < 2 or not (folder / "pid").exists() or not (folder / "pid").read_text():
+    while len(list(rows.glob("*/row.json"))) < 2 or not _running(sleep):
         assert first.poll() is None
         time.sleep(0.05)
     first.send_signal(signal.SIGKILL)
     first.wait()
-    hung = folder.__class__("/proc") / (folder / "pid").read_text()
-    while hung.exists():
+    while _running(sleep):
         time.sleep(0.05)
     shutil.rmtree(folder / "class" / "cleo")
     written_submission(folder / "class" / "cleo")
