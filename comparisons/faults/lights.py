@@ -22,9 +22,9 @@ def first_light_only() -> None:
     "local_illumination",
     "What happens to the image if you list a light twice?",
     Edit("range(rows_of(scene, LIGHT_POSITION))", "range(-1, rows_of(scene, LIGHT_POSITION))"),
-    Edit("light", "max(light, 0)", times=3),
+    Edit("light", "(light if light > 0 else 0)", times=3),
     Edit("range(rows_of(scene, SUN_DIRECTION))", "range(-1, rows_of(scene, SUN_DIRECTION))"),
-    Edit("sun", "max(sun, 0)", times=2),
+    Edit("sun", "(sun if sun > 0 else 0)", times=2),
 )
 def first_light_counted_twice() -> None:
     """The sum begins with the first light and the loop adds it once more."""

@@ -170,7 +170,7 @@ def epsilon_to_the_wrong_side(primitive: int, point: Vector, normal: Vector, dir
             return True
         """,
         """
-        are_triangles = min(primitive, left) >= spheres
+        are_triangles = primitive >= spheres and left >= spheres
         if primitive == left or (are_triangles and material_of(scene, primitive) == material_of(scene, left)):
             distance = inf
         """,

@@ -29,16 +29,21 @@ if TYPE_CHECKING:
 
 # The simplest failing scenes tell most, and each costs as much as all before.
 MOST_SCENES = 4
-# Of these so many wrong and so many right pixels are compared with what each fault computes, before anything is proved.
+# Of these so many wrong and so many right pixels are compared with what each fault computes, before anything is proved;
+# of the many pairs of faults fewer.
 SAMPLED = 16
+SAMPLED_FOR_PAIRS = 8
 # So many faults are held to a proof, on so many wrong pixels of a scene: some seconds of work a scene.
 MOST_PROVED = 6
 MOST_WRONG = 48
+# What explains the simplest scenes is held to all others by fewer pixels each: together about as many.
+LATER_WRONG = 8
+LATER_RIGHT = 64
 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """A picture that is wrong, corrected by the reading, and what it was judged by."""
+    """A picture, corrected by the reading, and what it was judged by."""
 
     scene: Scene
     picture: NDArray[np.float64]
@@ -85,12 +90,11 @@ class Proof:
 def evidence_of(
     graded: Sequence[GradedPicture], reading: Reading, declared: OutputModel, assignment: Assignment
 ) -> list[Evidence]:
-    """The pictures with wrong pixels, those of the simplest scenes first: of the fewest features, then bounces."""
-    wrong = [it for it in graded if it.submitted.image is not None and it.counts.wrong]
-    wrong.sort(key=lambda it: (len(required_features(it.scene)), it.scene.max_depth, it.scene.name))
+    """All pictures, those of the simplest scenes first: of the fewest features, then bounces."""
+    simplest = sorted(graded, key=lambda it: (len(required_features(it.scene)), it.scene.max_depth, it.scene.name))
     return [
         Evidence(it.scene, corrected(reading, it.submitted.image), it.right, it.wrong, reading, declared, assignment)
-        for it in wrong
+        for it in simplest
         if it.submitted.image is not None
     ]
 
@@ -105,9 +109,11 @@ def spread(mask: NDArray[np.bool_], most: int) -> list[tuple[int, int]]:
 
 
 @at_work()
-def agreements(evidence: Evidence, tracers: Sequence[FaultyTracer]) -> dict[FaultyTracer, Agreement]:
+def agreements(
+    evidence: Evidence, tracers: Sequence[FaultyTracer], most: int = SAMPLED
+) -> dict[FaultyTracer, Agreement]:
     """How each faulty tracer that differs in this scene agrees with the picture at sampled pixels."""
-    wrong, right = spread(evidence.wrong, SAMPLED), spread(evidence.right, SAMPLED)
+    wrong, right = spread(evidence.wrong, most), spread(evidence.right, most)
     pixels = [*wrong, *right]
     given = _at(evidence.picture, pixels)
     found = {}
@@ -133,9 +139,11 @@ def agreements(evidence: Evidence, tracers: Sequence[FaultyTracer]) -> dict[Faul
 
 
 @at_work()
-def proof_of(evidence: Evidence, tracer: FaultyTracer) -> Proof:
-    """Hold the wrong pixels to the feasible sets of the faulty tracer, and the right ones to what it computes."""
-    pixels = spread(evidence.wrong, MOST_WRONG)
+def proof_of(evidence: Evidence, tracer: FaultyTracer, most_wrong: int, most_right: int) -> Proof:
+    """Hold so many wrong pixels to the feasible sets of the faulty tracer, and right ones to what it computes."""
+    pixels = spread(evidence.wrong, most_wrong)
+    if not tracer.applies_to(evidence.scene):  # it renders the scene as a right tracer does
+        return Proof(evidence.scene.name, 0, len(pixels), 0, 0)
     given = _at(evidence.picture, pixels)
     explained, known = np.zeros((2, len(pixels)), dtype=bool)
     for model in evidence.assignment.models:
@@ -146,7 +154,8 @@ def proof_of(evidence: Evidence, tracer: FaultyTracer) -> Proof:
         boxes = outcomes_of(tracer, evidence.scene, evidence.reading, allowed, [pixels[place] for place in left])
         explained[left] = _fits(evidence, given[left], boxes)
         known[left] |= np.array([bool(of_pixel) for of_pixel in boxes])
-    counts = int(explained.sum()), int(known.sum()), _contradicted(evidence, tracer), int((~known).sum())
+    contradicted = _contradicted(evidence, tracer, most_right)
+    counts = int(explained.sum()), int(known.sum()), contradicted, int((~known).sum())
     return Proof(evidence.scene.name, *counts)
 
 
@@ -181,10 +190,10 @@ def _fits(evidence: Evidence, given: NDArray[np.float64], boxes: Boxes) -> NDArr
     return fits
 
 
-def _contradicted(evidence: Evidence, tracer: FaultyTracer) -> int:
+def _contradicted(evidence: Evidence, tracer: FaultyTracer, most: int) -> int:
     """How many right pixels would be wrong with the fault: what it computes is outside of all feasible sets there."""
-    pixels = spread(evidence.right, evidence.right.size)
-    if not pixels or not tracer.applies_to(evidence.scene):
+    pixels = spread(evidence.right, most)
+    if not pixels:
         return 0
     values = values_of(tracer, evidence.scene, evidence.reading, pixels)
     if values is None:

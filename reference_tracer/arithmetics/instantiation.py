@@ -127,23 +127,13 @@ def kernel_source(
     parts = [ast.unparse(constant) for name, constant in constants.items() if name in mentioned]
     for function in reached:
         rounds = rounded_operations and function.definition.name not in exact_functions()
-        changes = [
-            *([_ComparisonCalls()] if decided_comparisons else []),
-            *([_Roundings()] if rounds else []),
-            *([_GuardedDivisions()] if guarded_divisions else []),
+        changes: list[type[ast.NodeTransformer]] = [
+            *([_ComparisonCalls] if decided_comparisons else []),
+            *([_Roundings] if rounds else []),
+            *([_GuardedDivisions] if guarded_divisions else []),
         ]
-        parts.append(_changed_text(function, changes))
+        parts.append(function.changed_text(tuple(changes)))
     return "\n".join(parts), {name: value for name, value in namer.names.items() if name in mentioned}
-
-
-def _changed_text(function: _PrunedFunction, changes: list[ast.NodeTransformer]) -> str:
-    """The function's text after these changes, one after the other."""
-    if not changes:
-        return function.text
-    changed = copy.deepcopy(function.definition)
-    for change in changes:
-        changed = change.visit(changed)
-    return ast.unparse(changed)
 
 
 @cache
@@ -159,7 +149,16 @@ class _PrunedFunction:
     def __init__(self, definition: ast.FunctionDef) -> None:
         self.definition = definition
         self.mentions = frozenset(inner.id for inner in ast.walk(definition) if isinstance(inner, ast.Name))
-        self.text = ast.unparse(definition)
+        self._texts: dict[tuple[type[ast.NodeTransformer], ...], str] = {}
+
+    def changed_text(self, changes: tuple[type[ast.NodeTransformer], ...]) -> str:
+        """Its text after these changes, one after the other; kept, since most kernels share most functions."""
+        if changes not in self._texts:
+            changed = copy.deepcopy(self.definition)
+            for change in changes:
+                changed = change().visit(changed)
+            self._texts[changes] = ast.unparse(changed)
+        return self._texts[changes]
 
 
 @cache
