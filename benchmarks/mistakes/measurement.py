@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING
 from pydantic import Field
 
 from benchmarks.mistakes.mistakes import FOLDER, Part, write_submission
-from raytruth.comparisons.grading.assignment_file import STARTING, assignment_path, load_assignment
-from raytruth.comparisons.grading.assignment_scenes import scenes_of
 from raytruth.comparisons.grading.grade import Occasion, grade_submission
 from raytruth.programs import program_of_file
 from raytruth.reference_tracer.storage.whole_files import write_whole
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
     from concurrent.futures import Executor
 
     from benchmarks.mistakes.mistakes import Mistake
+    from raytruth.comparisons.grading.assignment import Assignment
     from raytruth.comparisons.records.grade_results import Grade
+    from raytruth.scenes.scene import Scene
 
 RESULTS = FOLDER / "results.json"
 
@@ -52,14 +52,13 @@ def key_of(mistakes: Sequence[Mistake]) -> str:
     return " + ".join(mistake.name for mistake in mistakes)
 
 
-def measured(mistakes: tuple[Mistake, ...], pool: Executor) -> Told:
-    """Switch the mistakes on, build the tracer, and grade it for the whole assignment."""
-    path = assignment_path(STARTING)
-    assignment = load_assignment(path)
+def measured(
+    mistakes: tuple[Mistake, ...], assignment: Assignment, topics: Mapping[str, Sequence[Scene]], pool: Executor
+) -> Told:
+    """Switch the mistakes on, build the tracer, and grade it for the scenes of each topic."""
     with TemporaryDirectory(prefix="raytruth-") as folder:
         program = program_of_file(write_submission(mistakes, Path(folder)))
-        grade = grade_submission(program, assignment, scenes_of(assignment, path.parent), Occasion(), pool)
-    return told_of(grade)
+        return told_of(grade_submission(program, assignment, topics, Occasion(), pool))
 
 
 def told_of(grade: Grade) -> Told:

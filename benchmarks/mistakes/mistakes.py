@@ -10,6 +10,7 @@ import random
 import shutil
 import subprocess
 import tomllib
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -35,8 +36,9 @@ class Mistake(Part):
     name: str
     language: str
     file: str
-    topic: str
-    """The first topic of the assignment, in its order, that must lose points."""
+    topic: str | None = None
+    """The first topic of the assignment, in its order, that must lose points; none for a global mistake, which is
+    charged apart."""
     known_as: frozenset[str] = frozenset()
     """The catalogue's faults, or the global mistakes, that it is; none where there is no such fault."""
     old: str
@@ -53,7 +55,7 @@ def drawn_pairs(mistakes: list[Mistake]) -> list[tuple[Mistake, Mistake]]:
     known = [mistake for mistake in mistakes if mistake.known_as and mistake.language == "cpp"]
     every = [(one, other) for place, one in enumerate(known) for other in known[place + 1 :]]
     together = [pair for pair in every if pair[0].known_as.isdisjoint(pair[1].known_as) and _go_together(pair)]
-    return random.Random(SEED).sample(together, PAIRS)  # noqa: S311 - a sample that everybody draws alike, no secret
+    return random.Random(SEED).sample(together, PAIRS)
 
 
 def write_submission(mistakes: tuple[Mistake, ...], folder: Path) -> Path:
@@ -78,12 +80,16 @@ def _altered(mistakes: tuple[Mistake, ...]) -> dict[str, str]:
     """The texts of the files that the mistakes alter. Raises ValueError where one does not find its place."""
     texts: dict[str, str] = {}
     for mistake in mistakes:
-        path = TRACERS / _stated(mistake.language)["folder"] / mistake.file
-        text = texts.get(mistake.file) or path.read_text(encoding="utf-8")
+        text = texts.get(mistake.file) or _source(mistake.language, mistake.file)
         if text.count(mistake.old) != 1:
             raise ValueError(f"{mistake.name}: found {mistake.old!r} {text.count(mistake.old)} times")
         texts[mistake.file] = text.replace(mistake.old, mistake.new)
     return texts
+
+
+@cache
+def _source(language: str, file: str) -> str:
+    return (TRACERS / _stated(language)["folder"] / file).read_text(encoding="utf-8")
 
 
 def _go_together(pair: tuple[Mistake, Mistake]) -> bool:
@@ -103,5 +109,6 @@ def _mistakes_of(language: str) -> list[Mistake]:
     ]
 
 
+@cache
 def _stated(language: str) -> dict[str, Any]:
     return tomllib.loads((FOLDER / f"{language}.toml").read_text(encoding="utf-8"))

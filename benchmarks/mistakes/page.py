@@ -38,7 +38,10 @@ def block(results: Results, mistakes: Sequence[Mistake], pairs: Sequence[tuple[M
     lines += ["|---|---|---|---|---|--:|--:|"]
     lines += [_row(it, told[key_of((it,))]) for it in known]
     lines += ["", "### Mistakes that the catalogue lacks", ""]
-    lines += ["| mistake | in | points lost first | told first | proved | said to be unknown |", "|---|---|---|---|--:|---|"]
+    lines += [
+        "| mistake | in | points lost first | told first | proved | said to be unknown |",
+        "|---|---|---|---|--:|---|",
+    ]
     lines += [_unknown_row(it, told[key_of((it,))]) for it in unknown]
     lines += ["", "### Two mistakes at once", ""]
     lines += ["| mistakes | in the catalogue | told | proved | places |", "|---|---|---|--:|--:|"]
@@ -52,7 +55,7 @@ def summary(
     """How many were told rightly, of how many."""
     told = results.told
     places = [place_of(it, told[key_of((it,))]) for it in known]
-    right_topic = sum(told[key_of((it,))].lost[:1] == (it.topic,) for it in [*known, *unknown])
+    right_topic = sum(is_lost_first(it, told[key_of((it,))]) for it in [*known, *unknown])
     said = sum(told[key_of((it,))].is_unknown for it in unknown)
     found = sum(max(places_of(pair, told[key_of(pair)])) <= FEW_OF_PAIRS for pair in pairs)
     return [
@@ -64,6 +67,11 @@ def summary(
         f"| a mistake that the catalogue lacks is said to be unknown | {_share(said, len(unknown))} |",
         f"| of two mistakes at once both are among the first four | {_share(found, len(pairs))} |",
     ]
+
+
+def is_lost_first(mistake: Mistake, told: Told) -> bool:
+    """Whether the first topic that lost points is that of the mistake, or none did where it is charged apart."""
+    return next(iter(told.lost), None) == mistake.topic
 
 
 def place_of(mistake: Mistake, told: Told) -> float:
@@ -101,7 +109,7 @@ def _known_as(mistake: Mistake) -> str:
 
 def _lost(mistake: Mistake, told: Told) -> str:
     first = told.lost[0] if told.lost else "none"
-    return first if first == mistake.topic else f"{first}, not {mistake.topic}"
+    return first if is_lost_first(mistake, told) else f"{first}, not {mistake.topic or 'none'}"
 
 
 def _proved(told: Told) -> str:

@@ -79,7 +79,7 @@ def sun_from_the_other_side() -> None:
 @fault(
     "ILL-8",
     "local_illumination",
-    "What is brighter than white?",
+    "Which is the largest value in your file, and which one should it be?",
     Edit("return total", "return (min(total[0], 1.0), min(total[1], 1.0), min(total[2], 1.0))"),
 )
 def shading_clamped_to_one() -> None:

@@ -13,7 +13,12 @@ def last_sphere_wins() -> None:
     """The last sphere that is hit is taken, not the nearest."""
 
 
-@fault("TRAV-1", "nearest_plane", "What hides what?", Edit("distance < nearest", "distance < inf"))
+@fault(
+    "TRAV-1",
+    "nearest_plane",
+    "What is seen where a ball stands before a wall?",
+    Edit("distance < nearest", "distance < inf"),
+)
 def last_plane_wins() -> None:
     """Planes are seen through all that stands before them."""
 

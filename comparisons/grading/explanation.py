@@ -65,15 +65,22 @@ class Explanation:
         return self.explained / self.looked_at if self.looked_at else 0.0
 
     @property
+    def share(self) -> float:
+        """The same share as if every fault had been held to all of these pixels."""
+        wrong = sum(proof.wrong for proof in self.proofs)
+        explained = sum(proof.wrong * proof.explained / max(1, proof.looked_at) for proof in self.proofs)
+        return explained / wrong if wrong else 0.0
+
+    @property
     def is_whole(self) -> bool:
         """Whether it explains every wrong pixel, and no right one speaks against it."""
         return self.explained == self.looked_at > 0 and self.contradicted == 0
 
     def order(self) -> tuple[bool, float, int, int, str]:
         """Whole explanations first, then those that explain most; of equals single faults before pairs."""
-        against = self.contradicted / max(1, self.looked_at)
+        against = self.contradicted / max(1, sum(proof.wrong for proof in self.proofs))
         faults = self.tracer.faults
-        return not self.is_whole, against - self.likelihood, -self.explained, len(faults), self.tracer.name
+        return not self.is_whole, against - self.share, -self.explained, len(faults), self.tracer.name
 
     def diagnosed(self) -> Diagnosed:
         """The same in words."""
@@ -104,7 +111,9 @@ class Search:
 
     def single(self) -> list[Explanation]:
         """The likeliest single faults, the best of them held to all pictures."""
-        return self._held_to_others(self._proved(self.simplest, self._likeliest(self.simplest, self.known, MOST_PROVED)))
+        return self._held_to_others(
+            self._proved(self.simplest, self._likeliest(self.simplest, self.known, MOST_PROVED))
+        )
 
     def pairs(self, alone: Sequence[Explanation]) -> list[Explanation]:
         """The likeliest single faults with any other: the pairs that explain more than each of these does."""
@@ -143,9 +152,7 @@ class Search:
         seen = {proof.scene for it in best for proof in it.proofs}
         others = [it for it in self.others if it.scene.name not in seen]
         more = self._proved(others, [it.tracer for it in best])
-        held = [
-            Explanation(one.tracer, (*one.proofs, *other.proofs)) for one, other in zip(best, more, strict=True)
-        ]
+        held = [Explanation(one.tracer, (*one.proofs, *other.proofs)) for one, other in zip(best, more, strict=True)]
         return [*held, *(it for it in ordered if it not in best)]
 
     def _proved(self, pictures: Sequence[Evidence], tracers: Iterable[FaultyTracer]) -> list[Explanation]:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 def unexplained(evidence: Sequence[Evidence], *, in_part: bool = False) -> str:
     """Where it shows first: the simplest failing scene, its region, the features that no right scene needs, and the
-    bounces and terms of the wrong pixel with the fewest rays. `evidence` holds all pictures, one of them wrong at least.
+    bounces and terms of the wrong pixel with the fewest rays. `evidence` holds all pictures, one of them wrong.
 
     `in_part`: some of it is explained.
     """
@@ -52,7 +52,7 @@ def region_of(wrong: NDArray[np.bool_]) -> tuple[tuple[int, int], tuple[int, int
 
 
 def simplest_pixel(evidence: Evidence) -> str:
-    """One sentence on the wrong pixel that takes the fewest bounces and rays, as it should be; none if none is known."""
+    """One sentence on the wrong pixel that takes the fewest bounces, not black if there is one; "" if none is known."""
     scene = rendered_scene(evidence.reading, evidence.scene)
     trees = []
     for column, row in spread(evidence.wrong, SAMPLED):
@@ -62,10 +62,11 @@ def simplest_pixel(evidence: Evidence) -> str:
             continue
     if not trees:
         return ""
-    tree = min(trees, key=lambda it: (bounces_of(it), len(it.rays)))
+    tree = min(trees, key=lambda it: (bounces_of(it), not _terms(it), len(it.rays)))
     bounces = bounces_of(tree)
     ways = f"{bounces} bounces" if bounces > 1 else "one bounce" if bounces else "no bounce"
-    return f" Its simplest wrong pixel, {tree.x},{tree.y}, takes {ways}, and what it should show is {_terms(tree)}."
+    shows = _terms(tree) or "black"
+    return f" Its simplest wrong pixel, {tree.x},{tree.y}, takes {ways}, and what it should show is {shows}."
 
 
 def bounces_of(tree: Explanation) -> int:
@@ -78,7 +79,7 @@ def bounces_of(tree: Explanation) -> int:
 
 def _terms(tree: Explanation) -> str:
     names = [name for ray in tree.rays for name in _terms_of(ray)]
-    return ", ".join(dict.fromkeys(names)) or "black"
+    return ", ".join(dict.fromkeys(names))
 
 
 def _terms_of(ray: TracedRay) -> list[str]:
