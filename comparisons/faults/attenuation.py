@@ -63,6 +63,11 @@ def polynomial_reversed() -> None:
     """The coefficients of 1/(a + b·d + c·d²) are read in reverse order."""
 
 
-@fault("ILL-7", "attenuation", "Where is the square root?", Edit("sqrt(distance_squared)", "distance_squared"))
+@fault(
+    "ILL-7",
+    "attenuation",
+    "Which power of the distance does the linear coefficient multiply in your program?",
+    Edit("sqrt(distance_squared)", "distance_squared"),
+)
 def polynomial_of_the_squared_distance() -> None:
     """The linear coefficient is multiplied by the squared distance, whose root was forgotten."""

@@ -48,7 +48,7 @@ def background_always_black(scene: SceneData, direction: Vector) -> Vector:
 @fault(
     "BG-1",
     "background_radiance",
-    "Is your mixture of two colours really linear?",
+    "Which colour has the sky halfway between bottom and top?",
     Edit("0.5 * (direction[1] + 1.0)", "0.25 * (direction[1] + 1.0) * (direction[1] + 1.0)"),
 )
 def gradient_squared() -> None:

@@ -31,7 +31,7 @@ def nearly_as_near_counts_as_equal() -> None:
 @fault(
     "ILL-9",
     "attenuation",
-    "At which distance has a light no direction?",
+    "From how near does a light still light a surface?",
     at_the_start("""
         if distance_squared < 2.25:
             return 0.0

@@ -60,6 +60,10 @@ class Fault(Subject):
     """The clause of docs/spec.md that it breaks."""
     hint: str = ""
     """Where to look, without the solution."""
+    edits: tuple[Edit, ...] = ()
+    """What is wrong in the function, where that is told by edits of it."""
+    edited: Function | None = None
+    """The function that they are edits of, if it is not the tracer's own."""
 
 
 def fault(
@@ -78,9 +82,16 @@ def fault(
     """
 
     def made(body: Function) -> Fault:
-        faulty = stand_in(function, body, edits, of)
         return Fault(
-            body.__name__, words_of(body), {function: faulty}, None, numbers, gives, STUDENT, clause=clause, hint=hint
+            body.__name__,
+            words_of(body),
+            {function: stand_in(function, body, edits, of)},
+            numbers=numbers,
+            gives=gives,
+            clause=clause,
+            hint=hint,
+            edits=edits,
+            edited=of,
         )
 
     return made

@@ -13,7 +13,11 @@ if TYPE_CHECKING:
     from raytruth.reference_tracer.source.scene_data import SceneData
 
 
-@fault("REFR-4", "fresnel_reflectance", "Is an approximation of Fresnel's equations good enough here?")
+@fault(
+    "REFR-4",
+    "fresnel_reflectance",
+    "Work R out by hand for glass at 60° with Fresnel's equations: how close do you come?",
+)
 def schlick(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
     """Schlick's approximation (1994) is used in place of Fresnel's equations, with the cosine on the thinner side."""
     normal_incidence = ((ratio - 1.0) / (ratio + 1.0)) * ((ratio - 1.0) / (ratio + 1.0))
@@ -64,7 +68,11 @@ def wrong_at_grazing_angles_only(cosine: Scalar, g: Scalar, ratio: Scalar) -> Sc
     return 0.5 * (across * across + within * within)
 
 
-@fault("REFR-4", "fresnel_reflectance", "How well do you know R?")
+@fault(
+    "REFR-4",
+    "fresnel_reflectance",
+    "Work R out by hand for a look straight onto the glass: does your program give the same?",
+)
 def reflectance_one_percent_off(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
     """The reflectance is one percent too low."""
     across = (cosine - g) / (cosine + g)

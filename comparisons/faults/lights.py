@@ -22,9 +22,9 @@ def first_light_only() -> None:
     "local_illumination",
     "What happens to the image if you list a light twice?",
     Edit("range(rows_of(scene, LIGHT_POSITION))", "range(-1, rows_of(scene, LIGHT_POSITION))"),
-    Edit("light", "max(light, 0)", times=3),
+    Edit("light", "(light if light > 0 else 0)", times=3),
     Edit("range(rows_of(scene, SUN_DIRECTION))", "range(-1, rows_of(scene, SUN_DIRECTION))"),
-    Edit("sun", "max(sun, 0)", times=2),
+    Edit("sun", "(sun if sun > 0 else 0)", times=2),
 )
 def first_light_counted_twice() -> None:
     """The sum begins with the first light and the loop adds it once more."""
@@ -79,7 +79,7 @@ def sun_from_the_other_side() -> None:
 @fault(
     "ILL-8",
     "local_illumination",
-    "What is brighter than white?",
+    "Which is the largest value in your file, and which one should it be?",
     Edit("return total", "return (min(total[0], 1.0), min(total[1], 1.0), min(total[2], 1.0))"),
 )
 def shading_clamped_to_one() -> None:

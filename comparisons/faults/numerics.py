@@ -26,7 +26,7 @@ def fast_inverse_square_root(a: Vector) -> Vector:
     return scale(a, (1.0 + 1e-5) / sqrt(dot(a, a)))
 
 
-@fault("NUM-2", "refracted_direction", "What is the root of a negative number?")
+@fault("NUM-2", "refracted_direction", "Under which of your roots can a number below 0 stand?")
 def root_of_a_negative_number(direction: Vector, normal: Vector, cosine: Scalar, g: Scalar, ratio: Scalar) -> Vector:
     """The cosine behind the surface is taken from 1 - sin², which may fall below 0, and its root is not a number."""
     sine_squared = (1.0 - cosine * cosine) * ratio * ratio

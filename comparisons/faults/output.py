@@ -38,19 +38,19 @@ def rows_race(image: Array) -> Array:
     return image
 
 
-@output_fault("IMG-3", "What is brighter than white?")
+@output_fault("IMG-3", "Which is the largest value in your file, and which one should it be?")
 def clamped_to_one(image: Array) -> Array:
     """Values are clamped to 1, although the file can hold more."""
     return np.clip(image, 0.0, 1.0)
 
 
-@output_fault("IMG-3", "Should your image look nice, or be right?")
+@output_fault("IMG-3", "What does your program do to a value between the lighting equation and the file?")
 def tone_mapped(image: Array) -> Array:
     """Values are mapped by x/(1 + x) to make highlights look better."""
     return image / (1.0 + image)
 
 
-@output_fault("IMG-3", "What is an exposure of zero stops?")
+@output_fault("IMG-3", "Is anything multiplied into your values after the lighting equation?")
 def one_percent_too_bright(image: Array) -> Array:
     """The exposure is one percent too high."""
     return image * 1.01
@@ -100,7 +100,7 @@ def gamma_forgotten(image: Array) -> Array:
     return srgb_decoded(_bytes_of(image) / 255.0)
 
 
-@output_fault("OUT-3", "Is the curve of sRGB a power?", BYTES)
+@output_fault("OUT-3", "Which code has the value 0.002 by the curve of sRGB, and which one do you write?", BYTES)
 def plain_power_for_the_curve(image: Array) -> Array:
     """The power 1/2.2 is used in place of the curve of sRGB."""
     return srgb_decoded(_bytes_of(np.clip(image, 0.0, 1.0) ** (1.0 / 2.2)) / 255.0)

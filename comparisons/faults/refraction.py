@@ -99,7 +99,11 @@ def bent_on_the_way_in_only(direction: Vector, normal: Vector, cosine: Scalar, g
     return direction
 
 
-@fault("REFR-3", "refracted_direction", "Compare sin θ with θ.")
+@fault(
+    "REFR-3",
+    "refracted_direction",
+    "Split the refracted direction into a part along the surface and one along the normal: how long is each?",
+)
 def angles_in_place_of_sines(direction: Vector, normal: Vector, cosine: Scalar, g: Scalar, ratio: Scalar) -> Vector:
     """The part along the surface is divided by the ratio, and the part along the normal is left as it was."""
     tangential = along(direction, normal, cosine)

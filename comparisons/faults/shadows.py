@@ -154,7 +154,7 @@ def epsilon_too_large(primitive: int, point: Vector, normal: Vector, direction: 
     return along(point, normal, 0.05), NOTHING
 
 
-@fault("SHAD-4", "departure", "Which way is out?")
+@fault("SHAD-4", "departure", "To which side of the surface does your ray start, and to which side does it go?")
 def epsilon_to_the_wrong_side(primitive: int, point: Vector, normal: Vector, direction: Vector) -> tuple[Vector, int]:
     """The small offset has the wrong sign, so rays start below the surface."""
     return along(point, normal, -1e-4), NOTHING

@@ -13,7 +13,12 @@ def last_sphere_wins() -> None:
     """The last sphere that is hit is taken, not the nearest."""
 
 
-@fault("TRAV-1", "nearest_plane", "What hides what?", Edit("distance < nearest", "distance < inf"))
+@fault(
+    "TRAV-1",
+    "nearest_plane",
+    "What is seen where a ball stands before a wall?",
+    Edit("distance < nearest", "distance < inf"),
+)
 def last_plane_wins() -> None:
     """Planes are seen through all that stands before them."""
 
@@ -72,8 +77,11 @@ def line_in_place_of_a_ray() -> None:
     "TRAV-2",
     "material_of",
     "To which object does the hit belong?",
-    Edit("integer_of(scene, SPHERE_MATERIAL, primitive)", "integer_of(scene, SPHERE_MATERIAL, max(primitive - 1, 0))"),
-    Edit("primitive - spheres", "max(primitive - spheres - 1, 0)"),
+    Edit(
+        "integer_of(scene, SPHERE_MATERIAL, primitive)",
+        "integer_of(scene, SPHERE_MATERIAL, primitive - 1 if primitive > 0 else 0)",
+    ),
+    Edit("primitive - spheres", "(primitive - spheres - 1 if primitive > spheres else 0)"),
 )
 def material_of_the_neighbour() -> None:
     """Materials are looked up one place too early, as if the first object had none."""

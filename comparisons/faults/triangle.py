@@ -80,7 +80,11 @@ def triangle_normal_not_normalised(a: Vector, b: Vector, c: Vector) -> Vector:
     return cross(subtract(b, a), subtract(c, a))
 
 
-@fault("TRI-4", "triangle_normal", "Look at one flat facet alone: is its shading flat?")
+@fault(
+    "TRI-4",
+    "triangle_normal",
+    "Work out the normal of one tilted triangle by hand: in which coordinate does yours differ?",
+)
 def axis_of_the_normal_lost(a: Vector, b: Vector, c: Vector) -> Vector:
     """One term of the cross product has the wrong sign, which shows only on triangles that are tilted."""
     u = subtract(b, a)

@@ -29,16 +29,23 @@ if TYPE_CHECKING:
 
 # The simplest failing scenes tell most, and each costs as much as all before.
 MOST_SCENES = 4
-# Of these so many wrong and so many right pixels are compared with what each fault computes, before anything is proved.
+# Of these so many wrong and so many right pixels are compared with what each fault computes, before anything is proved;
+# of the many pairs of faults fewer.
 SAMPLED = 16
+SAMPLED_FOR_PAIRS = 8
 # So many faults are held to a proof, on so many wrong pixels of a scene: some seconds of work a scene.
 MOST_PROVED = 6
 MOST_WRONG = 48
+# A fault that explains none of the first of these pixels, spread over all, is not held to the others.
+MOST_FIRST = 6
+# What explains the simplest scenes is held to all others by fewer pixels each: together about as many.
+LATER_WRONG = 8
+LATER_RIGHT = 64
 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """A picture that is wrong, corrected by the reading, and what it was judged by."""
+    """A picture, corrected by the reading, and what it was judged by."""
 
     scene: Scene
     picture: NDArray[np.float64]
@@ -75,6 +82,8 @@ class Proof:
     """How many wrong pixels of a scene lie in the feasible sets of a faulty tracer, and how many right ones do not."""
 
     scene: str
+    wrong: int
+    """The wrong pixels that stand for all of the scene: those looked at, and more where none of these is explained."""
     explained: int
     looked_at: int
     contradicted: int
@@ -85,12 +94,11 @@ class Proof:
 def evidence_of(
     graded: Sequence[GradedPicture], reading: Reading, declared: OutputModel, assignment: Assignment
 ) -> list[Evidence]:
-    """The pictures with wrong pixels, those of the simplest scenes first: of the fewest features, then bounces."""
-    wrong = [it for it in graded if it.submitted.image is not None and it.counts.wrong]
-    wrong.sort(key=lambda it: (len(required_features(it.scene)), it.scene.max_depth, it.scene.name))
+    """All pictures, those of the simplest scenes first: of the fewest features, then bounces."""
+    simplest = sorted(graded, key=lambda it: (len(required_features(it.scene)), it.scene.max_depth, it.scene.name))
     return [
         Evidence(it.scene, corrected(reading, it.submitted.image), it.right, it.wrong, reading, declared, assignment)
-        for it in wrong
+        for it in simplest
         if it.submitted.image is not None
     ]
 
@@ -105,37 +113,64 @@ def spread(mask: NDArray[np.bool_], most: int) -> list[tuple[int, int]]:
 
 
 @at_work()
-def agreements(evidence: Evidence, tracers: Sequence[FaultyTracer]) -> dict[FaultyTracer, Agreement]:
+def agreements(
+    evidence: Evidence, tracers: Sequence[FaultyTracer], most: int = SAMPLED
+) -> dict[FaultyTracer, Agreement]:
     """How each faulty tracer that differs in this scene agrees with the picture at sampled pixels."""
-    wrong, right = spread(evidence.wrong, SAMPLED), spread(evidence.right, SAMPLED)
-    pixels = [*wrong, *right]
-    given = _at(evidence.picture, pixels)
+    wrong, right = spread(evidence.wrong, most), spread(evidence.right, most)
+    # Every other wrong pixel first: most faults are like none of these, and are not looked at any further.
+    first = wrong[::2]
     found = {}
     for tracer in tracers:
         if not tracer.applies_to(evidence.scene):
             continue
-        values = values_of(tracer, evidence.scene, evidence.reading, pixels)
-        if values is None:
-            continue
-        low, high = evidence.read(values)
-        values = 0.5 * (low + high)
-        unlike = np.asarray(differs_visibly(given, values).any(axis=1))
-        scale = np.maximum(np.maximum(np.abs(given), np.abs(values)), np.finfo(np.float32).tiny)
-        with np.errstate(over="ignore", invalid="ignore"):  # of what is infinite, and as far as can be
-            apart = (np.abs(given - values) / scale).max(axis=1)
-        found[tracer] = Agreement(
-            alike=int((~unlike[: len(wrong)]).sum()),
-            unlike=int(unlike[len(wrong) :].sum()),
-            sampled=len(wrong),
-            distance=float(np.mean(np.nan_to_num(apart[: len(wrong)], nan=1.0, posinf=1.0))),
-        )
+        agreement = _agreement(evidence, tracer, first, [])
+        if agreement is not None and agreement.alike:
+            agreement = _agreement(evidence, tracer, wrong, right)
+        if agreement is not None:
+            found[tracer] = agreement
     return found
 
 
+def _agreement(evidence: Evidence, tracer: FaultyTracer, wrong: Pixels, right: Pixels) -> Agreement | None:
+    """At these pixels; None where the faulty tracer breaks."""
+    pixels = [*wrong, *right]
+    values = values_of(tracer, evidence.scene, evidence.reading, pixels)
+    if values is None:
+        return None
+    given = _at(evidence.picture, pixels)
+    low, high = evidence.read(values)
+    values = 0.5 * (low + high)
+    unlike = np.asarray(differs_visibly(given, values).any(axis=1))
+    scale = np.maximum(np.maximum(np.abs(given), np.abs(values)), np.finfo(np.float32).tiny)
+    with np.errstate(over="ignore", invalid="ignore"):  # of what is infinite, and as far as can be
+        apart = (np.abs(given - values) / scale).max(axis=1)
+    return Agreement(
+        alike=int((~unlike[: len(wrong)]).sum()),
+        unlike=int(unlike[len(wrong) :].sum()),
+        sampled=len(wrong),
+        distance=float(np.mean(np.nan_to_num(apart[: len(wrong)], nan=1.0, posinf=1.0))),
+    )
+
+
 @at_work()
-def proof_of(evidence: Evidence, tracer: FaultyTracer) -> Proof:
-    """Hold the wrong pixels to the feasible sets of the faulty tracer, and the right ones to what it computes."""
-    pixels = spread(evidence.wrong, MOST_WRONG)
+def proof_of(evidence: Evidence, tracer: FaultyTracer, most_wrong: int, most_right: int) -> Proof:
+    """Hold so many wrong pixels to the feasible sets of the faulty tracer, and right ones to what it computes."""
+    pixels = spread(evidence.wrong, most_wrong)
+    wrong = len(pixels)
+    if not tracer.applies_to(evidence.scene):  # it renders the scene as a right tracer does
+        return Proof(evidence.scene.name, wrong, 0, wrong, 0, 0)
+    explained, known = _explained(evidence, tracer, first := pixels[:: max(1, wrong // MOST_FIRST)])
+    pixels = [it for it in pixels if it not in first] if explained.any() else []
+    more = _explained(evidence, tracer, pixels)
+    explained, known = np.concatenate([explained, more[0]]), np.concatenate([known, more[1]])
+    contradicted = _contradicted(evidence, tracer, most_right)
+    counts = int(explained.sum()), int(known.sum()), contradicted, int((~known).sum())
+    return Proof(evidence.scene.name, wrong, *counts)
+
+
+def _explained(evidence: Evidence, tracer: FaultyTracer, pixels: Pixels) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Which of these pixels lie in the feasible sets of the faulty tracer, and of which anything is known."""
     given = _at(evidence.picture, pixels)
     explained, known = np.zeros((2, len(pixels)), dtype=bool)
     for model in evidence.assignment.models:
@@ -146,8 +181,7 @@ def proof_of(evidence: Evidence, tracer: FaultyTracer) -> Proof:
         boxes = outcomes_of(tracer, evidence.scene, evidence.reading, allowed, [pixels[place] for place in left])
         explained[left] = _fits(evidence, given[left], boxes)
         known[left] |= np.array([bool(of_pixel) for of_pixel in boxes])
-    counts = int(explained.sum()), int(known.sum()), _contradicted(evidence, tracer), int((~known).sum())
-    return Proof(evidence.scene.name, *counts)
+    return explained, known
 
 
 def ranked(found: Sequence[dict[FaultyTracer, Agreement]]) -> list[FaultyTracer]:
@@ -181,10 +215,10 @@ def _fits(evidence: Evidence, given: NDArray[np.float64], boxes: Boxes) -> NDArr
     return fits
 
 
-def _contradicted(evidence: Evidence, tracer: FaultyTracer) -> int:
+def _contradicted(evidence: Evidence, tracer: FaultyTracer, most: int) -> int:
     """How many right pixels would be wrong with the fault: what it computes is outside of all feasible sets there."""
-    pixels = spread(evidence.right, evidence.right.size)
-    if not pixels or not tracer.applies_to(evidence.scene):
+    pixels = spread(evidence.right, most)
+    if not pixels:
         return 0
     values = values_of(tracer, evidence.scene, evidence.reading, pixels)
     if values is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,7 @@ from raytruth.comparisons.kills.kill_matrix import ERRORS, LONGEST_SECONDS
 from raytruth.comparisons.processes.time_limit import cpu_seconds
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour, merged
+from raytruth.reference_tracer.arithmetics.edits import edited
 from raytruth.reference_tracer.arithmetics.instantiation import functions_of
 from raytruth.reference_tracer.rendering import prepare
 from raytruth.scenes.requirements import required_features
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.grading.global_mistakes import Reading
+    from raytruth.reference_tracer.arithmetics.edits import Function
     from raytruth.scenes.scene import Scene
 
 Pixels = list[tuple[int, int]]
@@ -68,12 +71,31 @@ class FaultyTracer:
         return " + ".join(self.faults)
 
     def behaviour(self) -> Behaviour:
-        """What they change. Raises ValueError where two change the same function."""
-        return merged(*(Behaviour(all_faults()[fault].overrides, name=fault) for fault in self.faults))
+        """What they change. Raises ValueError where two change the same function and cannot both be made in it."""
+        by_function: dict[str, list[str]] = {}
+        for fault in self.faults:
+            for function in all_faults()[fault].overrides:
+                by_function.setdefault(function, []).append(fault)
+        functions = {function: _faulty_function(function, tuple(own)) for function, own in by_function.items()}
+        return Behaviour(functions, name=self.name)
 
     def applies_to(self, scene: Scene) -> bool:
         """Whether the scene's kernel holds any function that they change."""
         return not functions_of(required_features(scene)).isdisjoint(self.behaviour().functions)
+
+
+@cache
+def _faulty_function(function: str, faults: tuple[str, ...]) -> Function:
+    """The tracer's function with one fault or more. Raises ValueError where one finds nothing to alter any more."""
+    own = [all_faults()[fault] for fault in faults]
+    if len(own) == 1:
+        return own[0].overrides[function]
+    # What edits start from: the faults that replace the whole function, or those whose edits are of another one.
+    bases = {fault.edited if fault.edits else fault.overrides[function] for fault in own} - {None}
+    if len(bases) > 1:
+        raise ValueError(f"{' and '.join(faults)} both say what {function} is")
+    edits = (edit for fault in own for edit in fault.edits)
+    return edited(function, *edits, of=next(iter(bases), None))
 
 
 def single_faults() -> list[FaultyTracer]:
@@ -84,6 +106,16 @@ def single_faults() -> list[FaultyTracer]:
         for it in in_functions
         if it.numbers == "float64" and (NOT_IN_BALLS.isdisjoint(it.overrides) or it.name in IN_OTHER_WORDS)
     ]
+
+
+def with_another(tracer: FaultyTracer, other: FaultyTracer) -> FaultyTracer | None:
+    """The tracer with the faults of both; None where they cannot be made together."""
+    both = FaultyTracer((*tracer.faults, *other.faults))
+    try:
+        both.behaviour()
+    except ValueError:
+        return None
+    return both
 
 
 def values_of(tracer: FaultyTracer, scene: Scene, reading: Reading, pixels: Pixels) -> NDArray[np.float64] | None:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 from raytruth.comparisons.grading.credit import scene_credit, score_of, topic_points
 from raytruth.comparisons.grading.diagnosis import evidence_of
-from raytruth.comparisons.grading.explanation import diagnosis, region_of, unexplained
+from raytruth.comparisons.grading.explanation import diagnosis
 from raytruth.comparisons.grading.faulty_tracers import single_faults
+from raytruth.comparisons.grading.first_difference import region_of, unexplained
 from raytruth.comparisons.grading.global_mistakes import AS_IT_IS
 from raytruth.comparisons.grading.reading import best_reading
 from raytruth.comparisons.grading.scene_grading import graded_picture, judged_as
@@ -83,13 +84,12 @@ def diagnose(
 ) -> tuple[list[Diagnosed], str]:
     """The known mistakes that explain what is wrong, and where it shows first if none explains all of it."""
     evidence = evidence_of(pictures, reading, declared, assignment)
-    if not evidence:
+    if not any(it.wrong.any() for it in evidence):
         return [], ""
     told = diagnosis(evidence, single_faults(), pool)
     if any(it.is_whole for it in told):
         return told, ""
-    right = [it.scene for it in pictures if it.submitted.image is not None and not it.counts.wrong]
-    return told, unexplained(evidence, right, in_part=bool(told))
+    return told, unexplained(evidence, in_part=bool(told))
 
 
 def _reread(

@@ -119,3 +119,12 @@ def test_a_fault_that_has_both_a_function_and_edits_is_refused() -> None:
 
     with pytest.raises(ValueError, match="wrong has both a body and edits"):
         fault("CAM-1", "normalize", "Why?", Edit("1.0", "2.0"))(wrong)
+
+
+@pytest.mark.parametrize("name", all_faults())
+def test_every_fault_has_a_hint_in_words_that_are_not_those_of_the_mistake(name: str) -> None:
+    told = all_faults()[name]
+    hint = re.findall(r"\w+", told.hint.lower())
+    assert len(hint) >= 4  # fewer are a riddle
+    assert told.hint.strip("?.").lower() not in told.words.lower()
+    assert name not in told.hint.lower().replace(" ", "_")

@@ -1,20 +1,42 @@
 from __future__ import annotations
 
+import inspect
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 from raytruth.comparisons.error_models.output_model import OutputModel
 from raytruth.comparisons.faults.catalogue import all_faults
-from raytruth.comparisons.grading.diagnosis import Evidence, agreements, evidence_of, proof_of, ranked, spread
-from raytruth.comparisons.grading.explanation import diagnosis, unexplained
-from raytruth.comparisons.grading.faulty_tracers import FaultyTracer, single_faults, values_of
+from raytruth.comparisons.grading.allowed_models import radiance_model
+from raytruth.comparisons.grading.diagnosis import (
+    MOST_FIRST,
+    MOST_SCENES,
+    Evidence,
+    Proof,
+    agreements,
+    evidence_of,
+    ranked,
+    spread,
+)
+from raytruth.comparisons.grading.diagnosis import proof_of as proof_of_some
+from raytruth.comparisons.grading.explanation import diagnosis
+from raytruth.comparisons.grading.faulty_tracers import (
+    FaultyTracer,
+    outcomes_of,
+    single_faults,
+    values_of,
+    with_another,
+)
 from raytruth.comparisons.grading.global_mistakes import AS_IT_IS
 from raytruth.comparisons.grading.scene_grading import judged_as
 from raytruth.comparisons.grading.submission import Submitted
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour, merged
-from tests.comparisons.grading.small_scenes import ASSIGNMENT, AtOnce, picture, small_scene
+from tests.comparisons.grading.small_scenes import ASSIGNMENT, HEIGHT, WIDTH, AtOnce, picture, small_scene
+
+if TYPE_CHECKING:
+    from raytruth.scenes.scene import Scene
 
 pytestmark = pytest.mark.clause("GRD-4")
 
@@ -38,10 +60,15 @@ def behaviour(*faults: str) -> Behaviour:
     return merged(*(Behaviour(all_faults()[name].overrides, name=name) for name in faults))
 
 
-def evidence(image: np.ndarray) -> Evidence:
-    graded = judged_as(AS_IT_IS, Submitted(image, 0.0), ASSIGNMENT, small_scene(), FLOATS)
+def evidence(image: np.ndarray, scene: Scene | None = None) -> Evidence:
+    graded = judged_as(AS_IT_IS, Submitted(image, 0.0), ASSIGNMENT, scene or small_scene(), FLOATS)
     (found,) = evidence_of([graded], AS_IT_IS, FLOATS, ASSIGNMENT)
     return found
+
+
+def proof_of(shown: Evidence, tracer: FaultyTracer) -> Proof:
+    """By all pixels."""
+    return proof_of_some(shown, tracer, shown.wrong.size, shown.right.size)
 
 
 def test_the_tracer_with_the_fault_explains_every_wrong_pixel_and_is_contradicted_by_no_right_one() -> None:
@@ -58,9 +85,7 @@ def test_the_tracer_with_the_fault_explains_every_wrong_pixel_and_is_contradicte
 def test_faults_of_the_walk_through_the_ray_tree_are_proved_in_other_words(fault: str) -> None:
     scene = small_scene("glass-and-mirror").model_copy(update={"max_depth": 1})
     image = picture(scene, behaviour(fault))
-    graded = judged_as(AS_IT_IS, Submitted(image, 0.0), ASSIGNMENT, scene, FLOATS)
-    (shown,) = evidence_of([graded], AS_IT_IS, FLOATS, ASSIGNMENT)
-    proof = proof_of(shown, FaultyTracer((fault,)))
+    proof = proof_of(evidence(image, scene), FaultyTracer((fault,)))
     assert proof.looked_at > 0
     assert (proof.explained, proof.contradicted) == (proof.looked_at, 0)
 
@@ -88,20 +113,7 @@ def test_two_mistakes_at_once_are_explained_by_the_pair() -> None:
     assert {tuple(sorted(it.fault.split(" + "))) for it in whole} == {("no_pi", "no_shadow_rays")}
 
 
-def test_what_nobody_has_thought_of_is_said_to_be_unknown_with_its_place() -> None:
-    image = picture(small_scene())
-    image[2:5, 6:9] += 0.0123
-    shown = evidence(image)
-    assert [it for it in diagnosis([shown], KNOWN, AtOnce()) if it.explained] == []
-    told = unexplained([shown], [])
-    assert "None of the known mistakes explains this." in told
-    assert "in 9 pixels, columns 6 to 8, rows 2 to 4" in told
-    assert "point lights" in told
-    assert "of its features" not in unexplained([shown], [small_scene()])
-    assert unexplained([shown], [], in_part=True).startswith("No known mistake explains all of this.")
-
-
-def test_the_simplest_scenes_come_first_and_right_ones_not_at_all() -> None:
+def test_the_simplest_scenes_come_first() -> None:
     scenes = [small_scene(name) for name in ("mirror-over-diffuse-floor", "three-coloured-lights", "single-sphere")]
     images = [picture(scene) for scene in scenes]
     for image in images[:2]:
@@ -111,7 +123,9 @@ def test_the_simplest_scenes_come_first_and_right_ones_not_at_all() -> None:
         for scene, image in zip(scenes, images, strict=True)
     ]
     found = evidence_of(graded, AS_IT_IS, FLOATS, ASSIGNMENT)
-    assert [it.scene.name for it in found] == ["small-three-coloured-lights", "small-mirror-over-diffuse-floor"]
+    names = ["small-single-sphere", "small-three-coloured-lights", "small-mirror-over-diffuse-floor"]
+    assert [it.scene.name for it in found] == names
+    assert [bool(it.wrong.any()) for it in found] == [False, True, True]
 
 
 def test_a_fault_that_changes_nothing_in_a_scene_is_not_held_against_it() -> None:
@@ -128,8 +142,60 @@ def test_a_faulty_tracer_that_breaks_has_no_values() -> None:
     assert values_of(broken, small_scene(), AS_IT_IS, [(0, 0)]) is not None
     endless = replace(broken, faults=("one_bounce_too_many",))
     assert values_of(endless, small_scene(), AS_IT_IS, []) is not None
-    with pytest.raises(ValueError, match="shadow"):
+
+
+def test_faults_of_one_function_are_made_together_where_each_still_finds_its_place() -> None:
+    both = with_another(FaultyTracer(("highlight_times_cosine",)), FaultyTracer(("light_direction_not_normalised",)))
+    assert both is not None
+    (function,) = both.behaviour().functions
+    alone = [all_faults()[fault].overrides[function] for fault in both.faults]
+    text = inspect.getsource(both.behaviour().functions[function])
+    assert text not in map(inspect.getsource, alone)
+    other_way = with_another(FaultyTracer(both.faults[1:]), FaultyTracer(both.faults[:1]))
+    assert other_way is not None
+    assert inspect.getsource(other_way.behaviour().functions[function]) == text
+    # One has no shadow ray, of which the other could alter the end.
+    assert with_another(FaultyTracer(("no_shadow_rays",)), FaultyTracer(("shadow_ray_not_limited",))) is None
+    with pytest.raises(ValueError, match="shadow_ray_end"):
         FaultyTracer(("no_shadow_rays", "shadow_ray_not_limited")).behaviour()
+
+
+def test_a_right_scene_that_a_fault_would_alter_speaks_against_it() -> None:
+    sun, lamps = small_scene("directional-light"), small_scene()
+    image = picture(sun, behaviour("sun_throws_no_shadows"))
+    known = [FaultyTracer(("no_shadow_rays",)), FaultyTracer(("sun_throws_no_shadows",))]
+    alone = {it.fault: it.is_whole for it in diagnosis([evidence(image, sun)], known, AtOnce())}
+    assert alone == {"no_shadow_rays": True, "sun_throws_no_shadows": True}
+    told = diagnosis([evidence(image, sun), evidence(picture(lamps))], known, AtOnce())
+    assert {it.fault: it.is_whole for it in told} == {"sun_throws_no_shadows": True, "no_shadow_rays": False}
+    assert told[0].fault == "sun_throws_no_shadows"
+
+
+def test_a_second_mistake_that_shows_in_later_scenes_only_is_told_with_the_first() -> None:
+    lamps = [small_scene().model_copy(update={"name": f"lamps-{number}"}) for number in range(MOST_SCENES)]
+    later = small_scene("parallel-projection")
+    shown = [evidence(picture(scene, behaviour("no_shadow_rays")), scene) for scene in lamps]
+    both = behaviour("no_shadow_rays", "parallel_rays_spread")
+    known = [FaultyTracer(("no_shadow_rays",)), FaultyTracer(("parallel_rays_spread",)), FaultyTracer(("no_pi",))]
+    told = diagnosis([*shown, evidence(picture(later, both), later)], known, AtOnce())
+    assert [it.fault for it in told if it.is_whole] == ["no_shadow_rays + parallel_rays_spread"]
+
+
+def test_a_fault_that_explains_none_of_the_first_pixels_is_not_held_to_the_others() -> None:
+    shown = evidence(picture(small_scene(), behaviour("no_shadow_rays")))
+    other = proof_of(shown, FaultyTracer(("no_pi",)))
+    assert MOST_FIRST <= other.looked_at < other.wrong == int(shown.wrong.sum())
+    without = proof_of(shown, FaultyTracer(("nothing_absorbed",)))
+    assert (without.explained, without.looked_at, without.contradicted) == (0, without.wrong, 0)
+
+
+@pytest.mark.parametrize("name", ["three-coloured-lights", "whitted-1980", "cornell-box", "parallel-projection"])
+def test_every_fault_can_be_held_to_a_proof(name: str) -> None:
+    scene = small_scene(name)
+    model = radiance_model(ASSIGNMENT.models[0]).in_scene(scene)
+    for tracer in single_faults():
+        if tracer.applies_to(scene):
+            assert len(outcomes_of(tracer, scene, AS_IT_IS, model, [(WIDTH // 2, HEIGHT - 1)])) == 1
 
 
 def test_pixels_are_spread_over_a_mask() -> None:
