@@ -23,7 +23,7 @@ def made_from(directory: Path) -> str:
     for path in sorted((directory / "cells").rglob("*")):
         status = path.stat()
         digest.update(f"{path.relative_to(directory)} {status.st_size} {status.st_mtime_ns}\n".encode())
-    for path in sorted([*OURS.rglob("*.py"), *(OURS / "templates").iterdir()]):
+    for path in sorted(path for path in OURS.rglob("*") if path.is_file() and path.suffix != ".pyc"):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
