@@ -40,7 +40,8 @@ def compare(first: Path, second: Path, /, *, scene: str | None = None, out: Path
     if images[0].shape != images[1].shape:
         sizes = " and ".join(f"{image.shape[1]}×{image.shape[0]}" for image in images)
         raise UsageError(f"{first}, {second}: expected two images of one size, found {sizes} pixels.")
-    write_whole(path, comparison_page((str(first), str(second)), (images[0], images[1])))
+    names = (first.name, second.name) if first.name != second.name else (str(first), str(second))
+    write_whole(path, comparison_page(names, (images[0], images[1])))
     say(f"Comparison: {path}")
     return 0
 

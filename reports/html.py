@@ -75,12 +75,15 @@ def _write_pages(directory: Path, results: Results, earlier: Results | None, fol
     """Write the pages of all cells, and return the overview."""
     parts = Parts(folder)
     scenes = []
-    (folder / "cells").mkdir()
+    for kind in ("cells", "scenes"):
+        (folder / kind).mkdir()
     for scene in scene_views(directory, results, parts):
         for cell in scene.cells_there:
             page = pages.cell_page(results, scene, cell)
             (folder / "cells" / f"{cell.file_name}.html").write_text(page, encoding="utf-8")
-            cell.forget()
+        page = pages.scene_page(scene)
+        (folder / "scenes" / f"{scene.file_name}.html").write_text(page, encoding="utf-8")
+        scene.forget()
         scenes.append(scene)
     told = _told_beside(directory, results, earlier)
     return pages.overview_page(results, scenes, {**told, "source": source})

@@ -29,17 +29,14 @@ BACK = "../"
 def overview_page(results: Results, scenes: Sequence[SceneView], told: Mapping[str, object]) -> str:
     """The page that leads to all cells."""
 
-    def cell_address(cell: CellView) -> str:
-        return f"{FOLDER}/cells/{quote(cell.file_name, safe='+')}.html"
-
     return _render(
         "report.html.jinja",
         _in_folder(viewer_assets.OVERVIEW_SCRIPTS, f"{FOLDER}/"),
         _overview(results, scenes, told),
         address=lambda name: f"{FOLDER}/{name}",
-        cell_address=cell_address,
+        cell_address=lambda cell: f"{FOLDER}/cells/{_quoted(cell.file_name)}",
+        scene_address=lambda scene: f"{FOLDER}/scenes/{_quoted(scene.file_name)}",
         articles=False,
-        heading=4,
     )
 
 
@@ -52,7 +49,21 @@ def cell_page(results: Results, scene: SceneView, cell: CellView) -> str:
         address=lambda name: f"{BACK}{name}",
         overview=f"{BACK}../report.html",
         heading=2,
-        cell_address=lambda other: f"{quote(other.file_name, safe='+')}.html",
+        cell_address=lambda other: _quoted(other.file_name),
+        scene_address=lambda scene: f"{BACK}scenes/{_quoted(scene.file_name)}",
+    )
+
+
+def scene_page(scene: SceneView) -> str:
+    """The page of one scene: what it is for, who agrees with whom, and its cells."""
+    return _render(
+        "scene-page.html.jinja",
+        _in_folder(viewer_assets.SCENE_SCRIPTS, BACK),
+        {"scene": scene, "wordings": wording.WORDINGS},
+        address=lambda name: f"{BACK}{name}",
+        overview=f"{BACK}../report.html",
+        cell_address=lambda cell: f"{BACK}cells/{_quoted(cell.file_name)}",
+        articles=False,
     )
 
 
@@ -64,6 +75,7 @@ def single_page(results: Results, scenes: Sequence[SceneView], parts: Parts, tol
         _overview(results, scenes, told),
         address=parts.data_uri,
         cell_address=lambda cell: f"#{cell.anchor}",
+        scene_address=lambda scene: f"#{scene.anchor}",
         articles=True,
         heading=4,
     )
@@ -100,6 +112,11 @@ def _in_folder(scripts: tuple[str, ...], base: str) -> dict[str, object]:
         "arrays": {},
         "base": base,
     }
+
+
+def _quoted(file_name: str) -> str:
+    """A page's file as part of an address."""
+    return f"{quote(file_name, safe='+')}.html"
 
 
 def _overview(results: Results, scenes: Sequence[SceneView], told: Mapping[str, object]) -> dict[str, object]:

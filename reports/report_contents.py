@@ -52,10 +52,6 @@ class CellView:
         """Of the renderer and its integrator."""
         return f"{self.record.renderer}/{self.record.integrator}"
 
-    def forget(self) -> None:
-        """Let go of what only its own page shows: a report may have thousands of cells."""
-        self.figures, self.viewer, self.log = self.figures[:1], None, None
-
 
 @dataclass
 class SceneView:
@@ -63,6 +59,8 @@ class SceneView:
 
     record: SceneRecord
     anchor: str
+    file_name: str
+    """Of its page, without the ending."""
     agreement: Agreement | None
     cells: list[CellView | None] = field(default_factory=list)
 
@@ -77,6 +75,12 @@ class SceneView:
         figures = (figure for cell in self.cells_there for figure in cell.figures[:1])
         return next((figure for figure in figures if figure.picture is not None), None)
 
+    def forget(self) -> None:
+        """Let go of what only pages of its own show: a report may have thousands of cells."""
+        self.agreement = None
+        for cell in self.cells_there:
+            cell.figures, cell.viewer, cell.log = cell.figures[:1], None, None
+
     @property
     def urgency(self) -> int:
         """The place in the order in which scenes are shown: those that fail first."""
@@ -87,7 +91,8 @@ def scene_views(directory: Path, results: Results, parts: Parts) -> Iterator[Sce
     """The rows of the matrix, each when it is wanted; pictures and arrays are added to the parts."""
     cells = wording.cells_by_place(results)
     for scene in results.scenes:
-        view = SceneView(scene, _anchor("scene", scene.name), agreement_on(directory, results, scene.name))
+        agreement = agreement_on(directory, results, scene.name)
+        view = SceneView(scene, _anchor("scene", scene.name), _file_name((scene.name,)), agreement)
         arrays: dict[str, dict[str, str]] = {}
         for renderer, integrator in wording.columns(results):
             cell = cells.get((scene.name, renderer, integrator))
@@ -126,7 +131,7 @@ def _anchor(*parts: str) -> str:
     return "/".join(quote(part, safe="") for part in parts)
 
 
-def _file_name(names: tuple[str, str, str]) -> str:
+def _file_name(names: tuple[str, ...]) -> str:
     """One part of a path, whatever the names are: a quoted name holds neither a slash nor a plus sign."""
     name = "+".join(quote(part, safe="") for part in names)
     if len(name) <= LONGEST_NAME:

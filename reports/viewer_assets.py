@@ -22,7 +22,8 @@ COLOUR_MAPS = ("batlow", "vik")
 """Sequential and diverging, both perceptually uniform and safe for the colour-blind (Crameri, Shephard, Heron 2020)."""
 
 SHARED_SCRIPTS = ("messages.js", "zh-cn.js", "commands.js")
-OVERVIEW_SCRIPTS = (*SHARED_SCRIPTS, "overview.js")
+SCENE_SCRIPTS = (*SHARED_SCRIPTS, "page.js")
+OVERVIEW_SCRIPTS = (*SHARED_SCRIPTS, "overview.js", "page.js")
 CELL_SCRIPTS = (
     *SHARED_SCRIPTS,
     "colour-tables.js",
@@ -38,6 +39,7 @@ CELL_SCRIPTS = (
     "pixel.js",
     "controls.js",
     "cell.js",
+    "page.js",
 )
 """In the order in which they must run."""
 
@@ -50,7 +52,7 @@ def script_text(name: str) -> str:
     if name == "colour-tables.js":
         return f"const COLOUR_TABLES = {script_json({name: colour_table(name) for name in COLOUR_MAPS})};\n"
     if name == "zh-cn.js":
-        return f'addMessages("zh-CN", {(VIEWER / "zh-cn.json").read_text(encoding="utf-8").strip()});\n'
+        return f'addMessages("zh-CN", {(VIEWER / "zh-cn.json").read_text(encoding="utf-8").strip()});\ntranslatePage();\n'
     return (VIEWER / name).read_text(encoding="utf-8")
 
 

@@ -202,4 +202,3 @@ function startViewers() {
 }
 
 startViewers();
-addPageTools();

@@ -135,5 +135,3 @@ function addPageTools() {
   listenToKeys(openPalette);
   for (const code of document.querySelectorAll("[data-copy] code")) addCopyButton(code);
 }
-
-translatePage();

@@ -40,23 +40,31 @@ function patternOf(template) {
   return new RegExp(`^${pattern}$`, "su");
 }
 
+// Items of a sentence such as `1 failed, 2 are as declared, not as due and 3 ended in an error`.
+const BETWEEN_ITEMS = /, (?=\d)| and (?=\d)/;
+
 function makeTranslator(messages) {
   const patterns = Object.keys(messages)
     .filter((template) => template.includes("{"))
     .map((template) => [patternOf(template), messages[template]]);
+
+  function translated(sentence) {
+    if (Object.hasOwn(messages, sentence)) return messages[sentence];
+    for (const [pattern, translation] of patterns) {
+      const match = pattern.exec(sentence);
+      if (!match) continue;
+      const parts = { ...match.groups };
+      for (const name of Object.keys(parts)) {
+        const items = name === "list" ? parts[name].split(BETWEEN_ITEMS) : [parts[name]];
+        parts[name] = items.map(translated).join("、");
+      }
+      return filledIn(translation, parts);
+    }
+    return sentence; // words that no catalogue knows stay as they are
+  }
   return (text) => {
     const sentence = text.trim().replace(/\s+/g, " ");
-    if (sentence === "") return text;
-    let found = messages[sentence];
-    for (const [pattern, translation] of found === undefined ? patterns : []) {
-      const match = pattern.exec(sentence);
-      if (match) {
-        const parts = Object.entries(match.groups).map(([name, part]) => [name, messages[part] ?? part]);
-        found = filledIn(translation, Object.fromEntries(parts));
-        break;
-      }
-    }
-    return found === undefined ? text : text.replace(text.trim(), () => found);
+    return text.replace(text.trim(), () => translated(sentence));
   };
 }
 

@@ -67,4 +67,3 @@ function startOverview() {
 }
 
 startOverview();
-if (typeof startViewers === "undefined") addPageTools();

@@ -1,0 +1,511 @@
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from playwright.sync_api import Page, expect
+
+from raytruth.comparisons.records.image_files import read_image
+from raytruth.comparisons.records.pixel_evidence import read_pixel_evidence
+from raytruth.reports.html import write_html_report, write_single_file
+from tests.browser.viewing import (
+    FAILING,
+    STOCHASTIC,
+    VIEWER,
+    cell_page,
+    choose,
+    colour_of,
+    drawn,
+    expect_pixel,
+    float32,
+    press,
+    ready,
+    rows,
+    screen_place,
+    state,
+    until,
+)
+from tests.reports.sample_results import (
+    AMBIGUOUS_PIXEL,
+    CAPPED_PIXEL,
+    DECLARED_PIXEL,
+    FAILING_PIXEL,
+    HOSTILE,
+    SIDE,
+    sample_document,
+    write_sample,
+)
+
+pytestmark = pytest.mark.clause("REP-3", "REP-11")
+
+UNJUDGED_PIXEL = (3, 3)
+NAN_PIXEL = (41, 40)
+PLAIN_PIXEL = (50, 20)
+FOLDER = "cells/lambert-sphere/closed_form-local"
+MAGENTA, BLACK = [255, 0, 255], [0, 0, 0]
+ENGLISH = {"locale": "en-GB"}
+
+
+@pytest.fixture
+def opened(visit: Any, report: Path) -> Any:
+    """Opens the page of a cell, and waits for its viewer."""
+
+    def open_cell(name: str = FAILING, **options: Any) -> Page:
+        visited = visit(path=cell_page(report, name), **{**ENGLISH, **options})
+        page: Page = ready(visited.page)
+        page.complaints = visited.complaints  # type: ignore[attr-defined] # for the tests that ask for them
+        return page
+
+    return open_cell
+
+
+def focus(page: Page) -> Page:
+    page.locator(".stage").focus()
+    return page
+
+
+def test_values_are_those_of_the_files_at_random_pixels_of_all_cells(opened: Any, report: Path) -> None:
+    cells = [cell for cell in sample_document(report.parent)["cells"] if "images" in cell][:-1]  # one lacks its render
+    numbers = np.random.default_rng(5)
+    for cell in cells:
+        page = opened(f"{cell['scene']}+{cell['renderer']}+{cell['integrator']}")
+        paths = cell["images"]
+        render, truth, distances = (
+            read_image(report.parent / paths[name]) for name in ("render", "truth", "tolerances")
+        )
+        evidence = read_pixel_evidence(report.parent / paths["feasible"])
+        for x, y in [NAN_PIXEL, FAILING_PIXEL, *numbers.integers(0, SIDE, (12, 2)).tolist()]:
+            page.evaluate(f"([x, y]) => choosePixel({VIEWER}, x, y)", [x, y])
+            expect_pixel(page, x, y)
+            shown = rows(page)
+            np.testing.assert_array_equal(float32(shown.get("Value") or shown["Mean"]), render[y, x])
+            np.testing.assert_array_equal(float32(shown["Truth"]), truth[y, x])
+            if "from to" in shown:
+                np.testing.assert_array_equal(float32(shown["from to"], 0), evidence.low[y, x, 0])
+                np.testing.assert_array_equal(float32(shown["from to"], 1), evidence.high[y, x, 0])
+            assert ("Distance" in shown) == (distances[y, x, 0] >= 0)
+
+
+def test_pointing_at_a_pixel_shows_it_and_a_click_keeps_it_until_escape(opened: Any) -> None:
+    page = opened()
+    page.mouse.move(*screen_place(page, *PLAIN_PIXEL))
+    expect_pixel(page, *PLAIN_PIXEL)
+    page.mouse.click(*screen_place(page, *FAILING_PIXEL))
+    before = state(page)["view"]
+    page.mouse.move(*screen_place(page, *PLAIN_PIXEL))
+    drawn(page)
+    expect_pixel(page, *FAILING_PIXEL)
+    assert state(page)["view"] == before  # a click never loses the place
+    page.keyboard.press("Escape")
+    page.mouse.move(*screen_place(page, 21, 12))
+    expect_pixel(page, 21, 12)
+
+
+def test_a_failing_pixel_is_told_as_such_with_its_distance_and_bits(opened: Any) -> None:
+    page = opened()
+    choose(page, *FAILING_PIXEL)
+    expect(page.locator(".outcome")).to_have_text(
+        "Pixel (20, 12): ✗ outside its feasible interval, 300 tolerances from the middle."
+    )
+    shown = rows(page)
+    assert shown["Distance"] == [["✗ 300"]] * 3
+    assert shown["Bits of error"] == [["23.0"]] * 3  # half the value is a whole binade of 2**23 floats away
+    choose(page, *AMBIGUOUS_PIXEL)
+    assert rows(page)["Bits of error"] == [["0.0"]] * 3
+
+
+def test_of_several_outcomes_the_one_that_holds_the_value_is_marked(opened: Any) -> None:
+    page = opened()
+    choose(page, *AMBIGUOUS_PIXEL)
+    expect(page.locator(".outcome")).to_contain_text("✓ within its 3 feasible outcomes")
+    headers = list(rows(page))
+    assert headers[-3:] == ["1", "2 ✓", "3"]
+    assert headers[-4] == "3 feasible outcomes, from … to (✓ holds the value)"
+
+
+def test_what_is_not_judged_or_no_number_or_capped_or_declared_is_told(opened: Any) -> None:
+    page = opened()
+    for pixel, words in [
+        (UNJUDGED_PIXEL, "not judged, since the renderer’s arithmetic leaves everything open"),
+        (NAN_PIXEL, "infinite tolerances"),
+        (CAPPED_PIXEL, "capped: there are more outcomes than are told apart"),
+    ]:
+        choose(page, *pixel)
+        expect(page.locator(".outcome")).to_contain_text(words)
+    choose(page, *NAN_PIXEL)
+    assert rows(page)["Value"] == [["not a number"]] * 3
+    declared = opened("whitted-1980+povray+trace")
+    choose(declared, *DECLARED_PIXEL)
+    expect(declared.locator(".outcome")).to_contain_text("◐ as declared, not as due")
+
+
+def test_a_mean_is_told_as_one(opened: Any) -> None:
+    page = opened(STOCHASTIC)
+    choose(page, *PLAIN_PIXEL)
+    expect(page.locator(".outcome")).to_contain_text("its mean is likely enough, at a distance of ")
+    assert {"Mean", "Feasible interval of the expectation"} <= set(rows(page))
+    assert page.get_by_role("button", name="Standard deviation").count() == 1
+
+
+def test_number_keys_flip_between_layers_in_place(opened: Any) -> None:
+    page = focus(opened())
+    press(page, "z")
+    view = state(page)["view"]
+    dark, light = [], []
+    for key, layer in zip("123456", ("truth", "render", "tolerance", "signed", "absolute", "relative"), strict=True):
+        press(page, key)
+        assert state(page)["current"] == layer
+        (light if layer == "truth" else dark).append(colour_of(page, *FAILING_PIXEL))
+        assert page.locator(".layers [aria-pressed=true]").count() == 1
+    assert state(page)["view"] == view
+    assert light[0] not in dark
+    press(page, "1", "2", " ")
+    assert state(page)["current"] == "truth"
+    press(page, " ")
+    assert state(page)["current"] == "render"
+
+
+def test_holding_a_key_shows_the_truth_until_it_is_let_go(opened: Any) -> None:
+    page = focus(opened())
+    press(page, "2")
+    wrong = colour_of(page, *PLAIN_PIXEL), colour_of(page, FAILING_PIXEL[0] - 2, FAILING_PIXEL[1])
+    page.keyboard.down("t")
+    drawn(page)
+    held = colour_of(page, *PLAIN_PIXEL), colour_of(page, FAILING_PIXEL[0] - 2, FAILING_PIXEL[1])
+    page.keyboard.up("t")
+    drawn(page)
+    assert held[0] == wrong[0]
+    assert held[1] != wrong[1]
+    assert colour_of(page, FAILING_PIXEL[0] - 2, FAILING_PIXEL[1]) == wrong[1]
+
+
+def test_arrow_keys_step_within_the_picture_and_the_page_does_not_scroll(opened: Any) -> None:
+    page = focus(opened())
+    before = page.evaluate("scrollY")
+    x, y = FAILING_PIXEL
+    for key, pixel in [
+        ("ArrowRight", (x + 1, y)),
+        ("ArrowDown", (x + 1, y + 1)),
+        ("ArrowLeft", (x, y + 1)),
+        ("ArrowUp", (x, y)),
+        ("Shift+ArrowRight", (x + 10, y)),
+        ("Shift+ArrowUp", (x + 10, y - 10)),
+        ("Shift+ArrowUp", (x + 10, 0)),
+    ]:
+        page.keyboard.press(key)
+        expect_pixel(page, *pixel)
+    assert page.evaluate("scrollY") == before
+
+
+def test_zoom_keeps_the_pixel_in_its_place_and_shows_numbers(opened: Any) -> None:
+    page = focus(opened())
+    fitted = state(page)["view"]["scale"]
+    place = screen_place(page, *FAILING_PIXEL)
+    press(page, "+")
+    assert state(page)["view"]["scale"] == 2 * fitted
+    assert np.allclose(screen_place(page, *FAILING_PIXEL), place, atol=1)
+    press(page, "z")
+    drawn_lines = page.evaluate(
+        f"linesOf(layerOf({VIEWER}, 'render'), {FAILING_PIXEL[1]} * {SIDE} + {FAILING_PIXEL[0]})"
+    )
+    assert drawn_lines == [str(float(f"{float(line[0]):.4g}")) for line in rows(page)["Value"]]
+    press(page, "0")
+    assert state(page)["view"]["scale"] == fitted
+
+
+def test_panning_needs_no_dragging_and_dragging_works(opened: Any) -> None:
+    page = focus(opened())
+    press(page, "z")
+    at = state(page)["view"]
+    page.get_by_role("button", name="Look to the right").click()
+    drawn(page)
+    assert state(page)["view"]["x"] > at["x"]
+    before = state(page)["view"]["x"]
+    x, y = screen_place(page, *FAILING_PIXEL)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x - 50, y, steps=4)
+    page.mouse.up()
+    drawn(page)
+    after = state(page)
+    assert after["view"]["x"] == pytest.approx(before + 50 / after["view"]["scale"])
+
+
+def test_all_panes_side_by_side_show_the_same_place(opened: Any) -> None:
+    page = focus(opened())
+    press(page, "4", "v", "v")
+    assert page.locator(".pane").count() == 3
+    assert page.locator(".pane-label").all_inner_texts() == ["Truth", "Render", "Signed difference"]
+    press(page, "z")
+    colours = [colour_of(page, *FAILING_PIXEL, pane=pane) for pane in range(3)]
+    assert len({tuple(colour) for colour in colours}) == 3
+
+
+def test_the_slider_divides_two_layers(opened: Any) -> None:
+    page = focus(opened())
+    press(page, "1", "2", "v")
+    assert page.locator(".pane-label").inner_text() == "Truth | Render"
+    truth = colour_of(page, FAILING_PIXEL[0] - 2, FAILING_PIXEL[1])
+    press(page, *["["] * 10)
+    assert state(page)["divider"] == 0
+    assert colour_of(page, FAILING_PIXEL[0] - 2, FAILING_PIXEL[1]) != truth
+
+
+def test_failing_regions_are_listed_worst_first_and_reached_by_a_key(opened: Any) -> None:
+    page = focus(opened())
+    assert page.locator(".regions button").all_inner_texts() == [
+        "3 pixels, worst (40, 40): infinite tolerances",
+        "144 pixels, worst (14, 6): 300 tolerances",
+    ]
+    press(page, "n")
+    expect_pixel(page, 40, 40)
+    press(page, "n")
+    expect_pixel(page, 14, 6)
+    press(page, "p")
+    expect_pixel(page, 40, 40)
+
+
+def test_the_mask_shows_what_fails_if_the_tolerance_were_another(opened: Any) -> None:
+    page = focus(opened())
+    press(page, "m")
+    assert colour_of(page, 14, 6) in (MAGENTA, BLACK)
+    assert colour_of(page, *PLAIN_PIXEL) not in (MAGENTA, BLACK)
+    slider = page.get_by_label("If the tolerance were")
+    slider.fill("36")  # 2**(36/4) = 512 > 300
+    drawn(page)
+    assert colour_of(page, 14, 6) not in (MAGENTA, BLACK)
+    expect(page.get_by_text("3 pixels in 1 regions would fail if the tolerance were 512 times as large.")).to_be_visible()
+    slider.fill("-16")
+    drawn(page)
+    count = int((np.maximum(page.evaluate(f"[...{VIEWER}.arrays.distance]"), 0).reshape(-1, 3).max(1) > 1 / 16).sum())
+    expect(page.get_by_text(re.compile(f"^{count} pixels in"))).to_be_visible()
+
+
+def test_exposure_curve_and_false_colour_change_images_and_not_differences(opened: Any) -> None:
+    page = focus(opened())
+    press(page, "2")
+    seen = [colour_of(page, *PLAIN_PIXEL)]
+    press(page, "e", "e")
+    seen.append(colour_of(page, *PLAIN_PIXEL))
+    page.get_by_label("Curve").select_option("1")
+    drawn(page)
+    seen.append(colour_of(page, *PLAIN_PIXEL))
+    press(page, "f")
+    seen.append(colour_of(page, *PLAIN_PIXEL))
+    assert len({tuple(colour) for colour in seen}) == 4
+    assert sum(seen[1]) > sum(seen[0])
+    press(page, "4")
+    before = colour_of(page, *FAILING_PIXEL)
+    press(page, "E", "E")
+    assert colour_of(page, FAILING_PIXEL[0], FAILING_PIXEL[1]) == before
+
+
+@pytest.mark.clause("REP-5")
+def test_colours_mean_what_the_scale_bar_says(opened: Any) -> None:
+    page = focus(opened())
+    for key, kind in [("3", "symmetric"), ("4", "linear"), ("5", "logarithmic")]:
+        press(page, key)
+        found = page.evaluate(
+            f"""(kind) => {{
+              const viewer = {VIEWER};
+              const layer = layerOf(viewer, viewer.current);
+              const scale = scaleOf(layer, viewer.settings);
+              if (scale.kind !== kind) throw new Error(scale.kind);
+              const places = [0, 0.1, 0.25, 0.5, 0.75, 0.9, 1];
+              return places.map((place) => position(valueAt(place, scale), scale) - place);
+            }}""",
+            kind,
+        )
+        assert np.abs(found).max() < 1e-6  # of a colour table of 256
+        ends = page.locator(".scale-bar .ends span").all_inner_texts()
+        assert len(ends) == 5
+    press(page, "3")
+    assert [words.strip() for words in page.locator(".scale-bar .key").all_inner_texts()] == ["infinite", "not judged"]
+    assert colour_of(page, *UNJUDGED_PIXEL) in ([140, 140, 140], [217, 217, 217])
+
+
+def test_statistics_are_of_what_is_seen_and_set_infinities_aside(opened: Any, report: Path) -> None:
+    page = focus(opened())
+    page.get_by_text("Statistics of what is seen").click()
+    table = page.locator(".panels details table")
+    expect(table).to_contain_text("Columns 0 to 63, rows 0 to 63")
+    render = read_image(report.parent / FOLDER / "render.exr")
+    finite = render[..., 0][np.isfinite(render[..., 0])].astype(float)
+    found = dict(
+        table.locator("tbody tr").evaluate_all("all => all.map(r => [r.cells[0].innerText, r.cells[1].innerText])")
+    )
+    assert float(found["mean"]) == pytest.approx(finite.mean(), rel=5e-3)  # three digits
+    assert float(found["largest"]) == pytest.approx(finite.max(), rel=5e-3)
+    assert found["not finite, set aside"] == "3"
+    focus(page)
+    press(page, "z")
+    expect(table).not_to_contain_text("Columns 0 to 63")
+
+
+@pytest.mark.parametrize("layer", ["truth", "render", "tolerance", "signed", "absolute", "relative"])
+def test_webgl_and_canvas_draw_the_same_picture(
+    visit: Any, report: Path, browser_with_webgl: Any, layer: str
+) -> None:
+    pictures = []
+    for painter in ("canvas", "webgl"):
+        path = cell_page(report)
+        after = f"?painter={painter}#layer={layer}"
+        page = ready(visit(path=path, after=after, by=browser_with_webgl, **ENGLISH).page)
+        assert page.evaluate(f"{VIEWER}.painter.name").lower() == painter
+        pictures.append([colour_of(page, x, y) for y in range(0, SIDE, 3) for x in range(0, SIDE, 3)])
+    first, second = map(np.array, pictures)
+    assert len(np.unique(first, axis=0)) > 2  # not blank, and more than the mark of the pixel
+    # Formulas in float64 and in the shader's float32 may round to neighbours of the 256 colours.
+    assert np.abs(first - second).max() <= 6
+    assert (np.abs(first - second).max(axis=1) <= 1).mean() > 0.99
+
+
+def test_the_palette_finds_and_runs_every_command(opened: Any) -> None:
+    page = focus(opened())
+    before = state(page)["view"]["scale"]
+    page.keyboard.press("Control+k")
+    page.keyboard.type("zoom in")
+    page.keyboard.press("Enter")
+    drawn(page)
+    assert state(page)["view"]["scale"] == 2 * before
+    expect(page.locator("dialog")).to_be_hidden()
+    page.keyboard.press("?")
+    names = page.locator("dialog li button").all_inner_texts()
+    assert len(names) > 35
+    page.keyboard.press("ArrowDown")
+    expect(page.locator("dialog li button").first).to_be_focused()
+    page.keyboard.press("Escape")
+    expect(page.locator("dialog")).to_be_hidden()
+
+
+def test_the_address_leads_back_to_pixel_layer_and_view(opened: Any, visit: Any, report: Path) -> None:
+    page = focus(opened())
+    press(page, "4", "v", "n", "z")
+    until(page, "location.hash.includes('view=')")
+    page.wait_for_timeout(400)
+    left = state(page)
+    again = ready(visit(path=cell_page(report), after=page.evaluate("location.hash"), **ENGLISH).page)
+    found = state(again)
+    for name in ("current", "mode", "pixel"):
+        assert found[name] == left[name]
+    assert found["view"] == pytest.approx(left["view"], abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "after", ["#pixel=1e9,-5&layer=nothing&mode=x&view=a,b", "#view=0,0,0", "#pixel=,&view=NaN,1,1", "#%%%"]
+)
+def test_an_address_that_makes_no_sense_does_no_harm(visit: Any, report: Path, after: str) -> None:
+    opened = visit(path=cell_page(report), after=after, **ENGLISH)
+    found = state(ready(opened.page))
+    assert 0 <= found["pixel"]["x"] < SIDE
+    assert 0 <= found["pixel"]["y"] < SIDE
+    assert opened.complaints == []
+
+
+@pytest.mark.clause("REP-10")
+def test_another_renderers_image_is_loaded_when_it_is_chosen(visit: Any, report: Path) -> None:
+    opened = visit(path=cell_page(report), **ENGLISH)
+    page = ready(opened.page)
+    before = len([url for url in opened.requests if "/arrays/" in url])
+    page.get_by_label("Another renderer").select_option(label="mitsuba/direct")
+    until(page, f"{VIEWER}.current.startsWith('other')")
+    drawn(page)
+    assert len([url for url in opened.requests if "/arrays/" in url]) == before + 1
+    render = read_image(report.parent / "cells/lambert-sphere/mitsuba-direct/render.exr")
+    choose(page, *PLAIN_PIXEL)
+    shown = float32(rows(page)["mitsuba/direct"])
+    np.testing.assert_array_equal(shown, render[PLAIN_PIXEL[1], PLAIN_PIXEL[0]])
+
+
+def test_the_command_explains_the_pixel_and_can_be_copied(opened: Any) -> None:
+    page = opened()
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    choose(page, *PLAIN_PIXEL)
+    button = page.locator(".pixel").get_by_role("button")
+    button.click()
+    expect(button).to_have_text("Copied")
+    assert page.evaluate("navigator.clipboard.readText()") == "raytruth explain lambert-sphere --pixel 50,20"
+
+
+def test_typed_coordinates_stay_within_the_picture(opened: Any) -> None:
+    page = opened()
+    x = page.get_by_label("x", exact=True)
+    for typed, expected in [("33", "33"), ("1000", "63"), ("-4", "0"), ("", "0"), ("2.7", "2")]:
+        x.fill(typed)
+        x.press("Enter")
+        expect_pixel(page, int(expected), FAILING_PIXEL[1])
+        assert x.input_value() == expected
+
+
+@pytest.mark.clause("REP-4")
+def test_a_live_region_reads_the_pixel(opened: Any) -> None:
+    page = opened()
+    choose(page, *FAILING_PIXEL)
+    expect(page.locator(".pixel [role=status]")).to_contain_text("Value 0.336, 0.228, 0.119; truth 0.673, 0.455, 0.238.")
+
+
+@pytest.mark.clause("REP-4")
+def test_a_tap_on_a_narrow_screen_shows_all_numbers(opened: Any) -> None:
+    page = opened(width=390, has_touch=True)
+    page.touchscreen.tap(*screen_place(page, *AMBIGUOUS_PIXEL))
+    expect_pixel(page, *AMBIGUOUS_PIXEL)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    region = page.locator(".pixel .scroll")
+    assert region.evaluate("r => r.scrollWidth <= r.clientWidth")  # all three channels
+
+
+def own_report(tmp_path: Path) -> Path:
+    return write_html_report(write_sample(tmp_path / "results"))
+
+
+@pytest.mark.clause("REP-1")
+def test_a_page_whose_arrays_are_missing_says_so_and_keeps_its_pictures(visit: Any, tmp_path: Path) -> None:
+    path = own_report(tmp_path)
+    for script in (path.parent / "report" / "arrays").iterdir():
+        script.unlink()
+    page = visit(path=cell_page(path), **ENGLISH).page
+    expect(page.get_by_role("alert")).to_have_text(
+        re.compile(r"^The pixels’ values lie in the file arrays/\w+\.js of the report’s folder, which is missing\.$")
+    )
+    assert page.locator(".figures img:visible").count() == 4
+
+
+@pytest.mark.parametrize("text", ["", 'raytruthArrays("another", {});'])
+def test_arrays_that_deliver_something_else_are_not_shown(visit: Any, tmp_path: Path, text: str) -> None:
+    path = own_report(tmp_path)
+    for script in (path.parent / "report" / "arrays").iterdir():
+        script.write_text(text, encoding="utf-8")
+    page = visit(path=cell_page(path), **ENGLISH).page
+    expect(page.get_by_role("alert")).to_contain_text("holds no values: build the report again")
+
+
+@pytest.mark.clause("REP-2")
+def test_hostile_words_stay_words(visit: Any, tmp_path: Path) -> None:
+    directory = write_sample(tmp_path / "results")
+    document = json.loads((directory / "results.json").read_text(encoding="utf-8"))
+    for cell in document["cells"]:
+        cell["source"] = cell["reason"] = HOSTILE
+    for scene in document["scenes"]:
+        scene["purpose"] = HOSTILE
+    (directory / "results.json").write_text(json.dumps(document), encoding="utf-8")
+    opened = visit(path=cell_page(write_html_report(directory)), **ENGLISH)
+    page = ready(opened.page)
+    choose(page, *PLAIN_PIXEL)
+    quoted = HOSTILE.replace("'", "'\"'\"'")
+    assert page.locator(".pixel code").inner_text() == f"raytruth explain '{quoted}' --pixel 50,20"
+    assert page.locator("p.reason").first.inner_text() == HOSTILE
+    assert opened.complaints == []
+
+
+@pytest.mark.clause("REP-10")
+def test_the_viewer_works_in_a_single_file(visit: Any, tmp_path: Path) -> None:
+    path = write_single_file(write_sample(tmp_path / "results"))
+    opened = visit(path=path, **ENGLISH)
+    page = opened.page
+    page.locator("article.fail").scroll_into_view_if_needed()
+    until(page, "document.querySelector('article.fail .viewer').viewer !== undefined")
+    expect(page.locator("article.fail .outcome")).to_contain_text("Pixel (20, 12): ✗ outside")
+    assert [url for url in opened.requests if not url.startswith(("data:", "blob:"))] == [path.as_uri()]
+    assert opened.complaints == []
