@@ -104,5 +104,7 @@ def _read(file: Path) -> PixelProof:
         return PixelProof.model_validate_json(content)
     except ValidationError as error:
         places = [(".".join(map(str, problem["loc"])) or "the file", problem["msg"]) for problem in error.errors()]
-        sentences = [f"{file}: {place}: {message}; write it anew by raytruth explain --proof." for place, message in places]
+        sentences = [
+            f"{file}: {place}: {message}; write it anew by raytruth explain --proof." for place, message in places
+        ]
         raise UsageError("\n".join(sentences)) from error

@@ -71,7 +71,7 @@ def written_single_file(directory: Path, *, against: Path | None = None) -> Path
     size = path.stat().st_size
     if size > LARGEST_ATTACHMENT:
         tell(
-            f"raytruth: {path} has {size / 1e6:.0f} MB: many mail services refuse it, and browsers are slow to open it. "
+            f"raytruth: {path} has {size / 1e6:.0f} MB: many mail services refuse it, and browsers open it slowly. "
             f"The folder {FOLDER} with {REPORT_FILE} beside it opens at once."
         )
     return path

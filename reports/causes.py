@@ -25,7 +25,7 @@ TROUBLES = (Verdict.FAIL.value, Verdict.ERROR.value, Verdict.DECLARED.value, WAI
 NEIGHBOURS = np.ones((3, 3))
 """Pixels that touch at a corner belong to one region, too."""
 
-NUMBER = re.compile(r"-?\d[\d.,]*(?:e-?\d+)?")
+NUMBER = re.compile(r"-?\d+(?:[.,]\d+)*(?:e[-+]?\d+)?")
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,9 @@ def grouped(results: Results, kinds: Mapping[str, str]) -> list[CauseGroup]:
     for cell in results.cells:
         if outcome(cell) in TROUBLES:
             found.setdefault((outcome(cell), kinds[cell.folder]), []).append(cell)
-    groups = [CauseGroup(known, kind, tuple(cells), _suspects(results, cells)) for (known, kind), cells in found.items()]
+    groups = [
+        CauseGroup(known, kind, tuple(cells), _suspects(results, cells)) for (known, kind), cells in found.items()
+    ]
     return sorted(groups, key=lambda group: (TROUBLES.index(group.outcome), -len(group.cells)))
 
 

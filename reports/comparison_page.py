@@ -27,7 +27,10 @@ def comparison_page(names: tuple[str, str], images: tuple[Image, Image]) -> str:
     scale = pictures.largest_finite(difference)
     shown = [pictures.tone_picture(image, stops) for image in images]
     figures = [
-        *(Figure(name, "", name, width, height, parts.add_picture(png)) for name, png in zip(names, shown, strict=True)),
+        *(
+            Figure(name, "", name, width, height, parts.add_picture(png))
+            for name, png in zip(names, shown, strict=True)
+        ),
         Figure(
             "Signed difference",
             "the second minus the first, the channel that differs most",

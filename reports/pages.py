@@ -28,7 +28,6 @@ BACK = "../"
 
 def overview_page(results: Results, scenes: Sequence[SceneView], told: Mapping[str, object]) -> str:
     """The page that leads to all cells."""
-
     return _render(
         "report.html.jinja",
         _in_folder(viewer_assets.OVERVIEW_SCRIPTS, f"{FOLDER}/"),

@@ -84,7 +84,9 @@ class SceneView:
     @property
     def urgency(self) -> int:
         """The place in the order in which scenes are shown: those that fail first."""
-        return min((TROUBLES.index(c.outcome) for c in self.cells_there if c.outcome in TROUBLES), default=len(TROUBLES))
+        return min(
+            (TROUBLES.index(c.outcome) for c in self.cells_there if c.outcome in TROUBLES), default=len(TROUBLES)
+        )
 
 
 def scene_views(directory: Path, results: Results, parts: Parts) -> Iterator[SceneView]:

@@ -52,8 +52,8 @@ def script_text(name: str) -> str:
     if name == "colour-tables.js":
         return f"const COLOUR_TABLES = {script_json({name: colour_table(name) for name in COLOUR_MAPS})};\n"
     if name == "zh-cn.js":
-        return f'addMessages("zh-CN", {(VIEWER / "zh-cn.json").read_text(encoding="utf-8").strip()});\ntranslatePage();\n'
-    return (VIEWER / name).read_text(encoding="utf-8")
+        return f'addMessages("zh-CN", {_text(VIEWER / "zh-cn.json").strip()});\ntranslatePage();\n'
+    return _text(VIEWER / name)
 
 
 def colour_table(name: str) -> str:

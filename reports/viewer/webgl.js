@@ -95,11 +95,19 @@ function patternColours() {
   return colours;
 }
 
-// null where there is no WebGL 2, or the image is larger than its textures.
-function makeWebglPainter(width, height) {
+// The names of those that browsers on common systems come with. The option failIfMajorPerformanceCaveat does not tell.
+function isSoftware(gl) {
+  const known = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = gl.getParameter(known ? known.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  return /SwiftShader|llvmpipe|Basic Render/i.test(name);
+}
+
+// null where there is no WebGL 2, or the image is larger than its textures. Software that stands in for a graphics
+// processor is slower than a canvas, and taken only if it is asked for.
+function makeWebglPainter(width, height, isAsked) {
   const canvas = element("canvas");
   const gl = canvas.getContext("webgl2", { alpha: true, premultipliedAlpha: false, antialias: false });
-  if (!gl || Math.max(width, height) > gl.getParameter(gl.MAX_TEXTURE_SIZE)) return null;
+  if (!gl || (isSoftware(gl) && !isAsked) || Math.max(width, height) > gl.getParameter(gl.MAX_TEXTURE_SIZE)) return null;
   const program = compiledProgram(gl);
   if (!program) return null;
   gl.useProgram(program);
@@ -161,8 +169,9 @@ function makeWebglPainter(width, height) {
   return { name: "WebGL", draw };
 }
 
-// `?painter=canvas` in the address chooses the canvas, to compare the two.
+// `?painter=canvas` or `?painter=webgl` in the address chooses, to compare the two.
 function makePainter(width, height) {
-  const isAsked = new URLSearchParams(location.search).get("painter") === "canvas";
-  return (isAsked ? null : makeWebglPainter(width, height)) ?? makeCanvasPainter(width, height);
+  const asked = new URLSearchParams(location.search).get("painter");
+  const webgl = asked === "canvas" ? null : makeWebglPainter(width, height, asked === "webgl");
+  return webgl ?? makeCanvasPainter(width, height);
 }

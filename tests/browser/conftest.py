@@ -91,7 +91,9 @@ def visit(browser: Browser, report: Path, contexts: list[BrowserContext]) -> Any
         page = context.new_page()
         visit = Visit(page, [], [])
         page.on("request", lambda request: visit.requests.append(request.url))
-        page.on("console", lambda message: visit.complaints.append(message.text) if is_complaint(message.text) else None)
+        page.on(
+            "console", lambda message: visit.complaints.append(message.text) if is_complaint(message.text) else None
+        )
         page.on("pageerror", lambda error: visit.complaints.append(str(error)))
         page.goto((address or path.as_uri()) + after)
         return visit

@@ -16,7 +16,8 @@ OURS = """() => {
   const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   while (texts.nextNode()) {
     const parent = texts.currentNode.parentElement;
-    if (!parent.closest("[translate=no], script, style, code, kbd, option, .line")) found.push(texts.currentNode.data.trim());
+    const isOurs = !parent.closest("[translate=no], script, style, code, kbd, option, .line");
+    if (isOurs) found.push(texts.currentNode.data.trim());
   }
   for (const element of document.querySelectorAll("[aria-label], [title]")) {
     if (element.closest("[translate=no]")) continue;

@@ -89,7 +89,14 @@ def test_groups_are_ordered_by_urgency_and_size_and_name_what_only_they_have() -
 
 def test_a_reason_is_the_same_kind_whatever_its_numbers_are() -> None:
     cells = [
-        Cell(scene="s", renderer="r", integrator="i", verdict="error", reason=f"it ended; signal {n}", command="")  # type: ignore[arg-type] # a string is one of the enumeration
+        Cell(
+            scene="s",
+            renderer="r",
+            integrator="i",
+            verdict="error",
+            reason=f"it ended; signal {n}, after 0.{n} s",
+            command="",
+        )  # type: ignore[arg-type] # a string is one of the enumeration
         for n in (6, 11)
     ]
-    assert {kind_of_trouble(cell, None) for cell in cells} == {"signal …"}
+    assert {kind_of_trouble(cell, None) for cell in cells} == {"signal …, after … s"}

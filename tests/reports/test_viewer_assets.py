@@ -61,7 +61,9 @@ def test_all_words_of_the_scripts_are_in_the_catalogue() -> None:
         said |= set(re.findall(r'say\("([^"]+)"', text))
         said |= set(re.findall(r'\bname: "([^"]+)"', text))
         said |= set(re.findall(r'(?:choiceOf|sliderOf)\("([^"]+)"', text))
-        said |= {word for words in re.findall(r'(?:words = |say\()[^;]*?\? "([^"]+)" : "([^"]+)"', text) for word in words}
+        said |= {
+            word for words in re.findall(r'(?:words = |say\()[^;]*?\? "([^"]+)" : "([^"]+)"', text) for word in words
+        }
     assert len(said) > 80
     assert said - MESSAGES.keys() <= {"canvas", "WebGL", "English", "中文"}
 
