@@ -14,7 +14,11 @@ function loadScript(name) {
     script.src = `${document.body.dataset.base}${name}`;
     script.onload = resolve;
     script.onerror = () =>
-      reject(new Error(say("The pixels’ values lie in the file {name} of the report’s folder, which is missing.", { name })));
+      reject(
+        new Error(
+          say("The pixels’ values lie in the file {name} of the report’s folder, which is missing.", { name }),
+        ),
+      );
     document.head.append(script);
   });
 }
@@ -42,7 +46,8 @@ async function fetched(name) {
   else await loadScript(name);
   const data = delivered.get(name);
   delivered.delete(name); // its text is not needed again
-  if (!data) throw new Error(say("The file {name} holds no values: build the report again with raytruth report.", { name }));
+  if (!data)
+    throw new Error(say("The file {name} holds no values: build the report again with raytruth report.", { name }));
   const arrays = {};
   for (const [key, packed] of Object.entries(data)) {
     arrays[key] = numbersOf(await inflated(packed.bytes), packed.kind);

@@ -7,15 +7,25 @@ let activeViewer = null;
 // Of two images of which nothing is known.
 function nothingJudged(count) {
   const none = () => new Uint8Array(count);
-  return { distance: new Float32Array(COLOURS * count).fill(-1), outcomes: none(), nearest: none(), merged: none(), declared: none() };
+  return {
+    distance: new Float32Array(COLOURS * count).fill(-1),
+    outcomes: none(),
+    nearest: none(),
+    merged: none(),
+    declared: none(),
+  };
 }
 
 async function allArrays(cell) {
   const [truth, render] = await Promise.all(["truth", "render"].map((name) => loadArrays(cell.arrays[name])));
-  const judgement = cell.arrays.judgement ? await loadArrays(cell.arrays.judgement) : nothingJudged(cell.width * cell.height);
+  const judgement = cell.arrays.judgement
+    ? await loadArrays(cell.arrays.judgement)
+    : nothingJudged(cell.width * cell.height);
   const arrays = { ...judgement, truth: truth.value, render: render.value };
   if (arrays.truth.length !== COLOURS * cell.width * cell.height || arrays.render.length !== arrays.truth.length) {
-    throw new Error(say("The pixels’ values beside this page belong to another report: build it again with raytruth report."));
+    throw new Error(
+      say("The pixels’ values beside this page belong to another report: build it again with raytruth report."),
+    );
   }
   if (cell.arrays.variance) arrays.variance = (await loadArrays(cell.arrays.variance)).value;
   return arrays;
@@ -40,7 +50,12 @@ function newViewer(host, cell, arrays) {
     panes: [],
     commands: [],
     listeners: [],
-    stage: element("div", { className: "stage", tabIndex: 0, role: "application", "aria-label": say("Pixels: choose one with the arrow keys") }),
+    stage: element("div", {
+      className: "stage",
+      tabIndex: 0,
+      role: "application",
+      "aria-label": say("Pixels: choose one with the arrow keys"),
+    }),
     current: "render",
     previous: "truth",
     held: null,
@@ -75,7 +90,8 @@ function otherRenders(viewer) {
     const id = `other${index}`;
     try {
       const { value } = await loadArrays(arrays);
-      if (value.length !== viewer.arrays.truth.length) throw new Error(say("The render of {name} has another size.", { name }));
+      if (value.length !== viewer.arrays.truth.length)
+        throw new Error(say("The render of {name} has another size.", { name }));
       if (!viewer.images.has(id)) viewer.images.set(id, { ...toneLayer(id, name, value), isName: true });
       show(viewer, id);
     } catch (error) {
@@ -88,7 +104,13 @@ function otherRenders(viewer) {
 // For fingers and mice what holding the key `t` is on the keyboard, where pressing the button shows the layer.
 function holdButton(viewer) {
   const { run, release, name } = viewer.commands.find(({ key }) => key === "t");
-  const button = element("button", { type: "button", title: say(name) }, say("Truth"), " ", element("kbd", { "aria-hidden": "true" }, "t"));
+  const button = element(
+    "button",
+    { type: "button", title: say(name) },
+    say("Truth"),
+    " ",
+    element("kbd", { "aria-hidden": "true" }, "t"),
+  );
   button.addEventListener("pointerdown", run);
   for (const ending of ["pointerup", "pointerleave", "pointercancel", "blur"]) button.addEventListener(ending, release);
   button.addEventListener("click", (event) => {
@@ -97,23 +119,57 @@ function holdButton(viewer) {
   return button;
 }
 
-const SIGNS = { "+": "+", "-": "−", 0: "Fit", z: "Numbers", c: "Centre", H: "←", L: "→", K: "↑", J: "↓", p: "✗ ←", n: "✗ →" };
+const SIGNS = {
+  "+": "+",
+  "-": "−",
+  0: "Fit",
+  z: "Numbers",
+  c: "Centre",
+  H: "←",
+  L: "→",
+  K: "↑",
+  J: "↓",
+  p: "✗ ←",
+  n: "✗ →",
+};
 
 function build(viewer) {
   const regions = makeRegions(viewer);
   viewer.commands.push(...flipCommands(viewer), ...viewCommands(viewer), ...regions.commands);
-  const buttons = Object.entries(SIGNS).filter(([key]) => viewer.isJudged || !"np".includes(key)).map(([key, sign]) => {
-    const command = viewer.commands.find((known) => known.key === key);
-    return commandButton({ ...command, key: undefined }, say(sign));
-  });
+  const buttons = Object.entries(SIGNS)
+    .filter(([key]) => viewer.isJudged || !"np".includes(key))
+    .map(([key, sign]) => {
+      const command = viewer.commands.find((known) => known.key === key);
+      return commandButton({ ...command, key: undefined }, say(sign));
+    });
   viewer.host.append(
     layerButtons(viewer, layerList(viewer)),
     viewer.stage,
     makeLegend(viewer),
-    element("div", { className: "tools", role: "group", "aria-label": say("View") }, ...modeControls(viewer), ...otherRenders(viewer), holdButton(viewer), ...buttons),
+    element(
+      "div",
+      { className: "tools", role: "group", "aria-label": say("View") },
+      ...modeControls(viewer),
+      ...otherRenders(viewer),
+      holdButton(viewer),
+      ...buttons,
+    ),
     element("div", { className: "tools", role: "group", "aria-label": say("Colours") }, ...toneControls(viewer)),
-    ...(viewer.isJudged ? [element("div", { className: "tools", role: "group", "aria-label": say("Tolerance") }, ...toleranceControls(viewer))] : []),
-    element("div", { className: "panels" }, makePixelPanel(viewer), element("div", {}, ...(viewer.isJudged ? [regions.panel] : []), makeStatistics(viewer))),
+    ...(viewer.isJudged
+      ? [
+          element(
+            "div",
+            { className: "tools", role: "group", "aria-label": say("Tolerance") },
+            ...toleranceControls(viewer),
+          ),
+        ]
+      : []),
+    element(
+      "div",
+      { className: "panels" },
+      makePixelPanel(viewer),
+      element("div", {}, ...(viewer.isJudged ? [regions.panel] : []), makeStatistics(viewer)),
+    ),
   );
   viewer.stage.addEventListener("focus", () => activate(viewer));
   viewer.host.hidden = false;
@@ -130,33 +186,6 @@ function activate(viewer) {
 function complain(host, error) {
   host.hidden = false;
   host.append(element("p", { className: "problem", role: "alert" }, error.message));
-}
-
-// What an address says after its #: pixel, layer, mode and zoom; whatever is not there or makes no sense is left out.
-function readAddress(viewer) {
-  const wanted = new URLSearchParams(location.hash.slice(1));
-  const numbers = (name) => (wanted.get(name) ?? "").split(",").map(Number);
-  const [x, y] = numbers("pixel");
-  if (wanted.has("pixel") && Number.isFinite(x) && Number.isFinite(y)) {
-    viewer.isPinned = true;
-    choosePixel(viewer, x, y);
-  }
-  const layer = wanted.get("layer");
-  if (viewer.images.has(layer) || FIELDS.some(({ id }) => id === layer)) show(viewer, layer);
-  if (MODES.includes(wanted.get("mode"))) viewer.mode = wanted.get("mode");
-  const [left, top, scale] = numbers("view");
-  if ([left, top, scale].every(Number.isFinite) && scale > 0 && wanted.has("view")) {
-    viewer.view = { x: left, y: top, scale: Math.min(scale, LARGEST_ZOOM) };
-    viewer.isFitted = false;
-  }
-}
-
-function writeAddress(viewer) {
-  const { x, y, scale } = viewer.view;
-  const parts = { pixel: `${viewer.pixel.x},${viewer.pixel.y}`, layer: viewer.current, mode: viewer.mode };
-  if (!viewer.isFitted) parts.view = [x, y, scale].map((number) => number.toFixed(2)).join(",");
-  if (!viewer.isPinned) delete parts.pixel;
-  history.replaceState(null, "", `#${new URLSearchParams(parts).toString().replaceAll("%2C", ",")}`);
 }
 
 async function start(host) {

@@ -12,7 +12,8 @@ function addCommands(...added) {
 function element(tag, properties = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {
-    if (name.includes("-") || ["role", "for", "list", "translate", "scope"].includes(name)) made.setAttribute(name, value);
+    if (name.includes("-") || ["role", "for", "list", "translate", "scope"].includes(name))
+      made.setAttribute(name, value);
     else made[name] = value;
   }
   made.append(...children);
@@ -33,14 +34,19 @@ function commandButton(command, word = say(command.name)) {
 }
 
 function makePalette() {
-  const input = element("input", { type: "search", "aria-label": say("Find a command"), placeholder: say("Find a command") });
+  const input = element("input", {
+    type: "search",
+    "aria-label": say("Find a command"),
+    placeholder: say("Find a command"),
+  });
   const list = element("ul");
   const dialog = element("dialog", { className: "palette", "aria-label": say("Commands") }, input, list);
   const buttons = () => [...list.querySelectorAll("button")].filter((button) => !button.parentElement.hidden);
 
   function fill() {
     list.replaceChildren();
-    for (const command of commands.filter(({ release }) => !release)) { // nothing can be held here
+    for (const command of commands.filter(({ release }) => !release)) {
+      // nothing can be held here
       const button = commandButton({ ...command, run: () => run(command) });
       list.append(element("li", {}, button));
     }
@@ -131,7 +137,9 @@ function addPageTools() {
   addCommands(palette, language);
   const languageButton = commandButton(language);
   languageButton.lang = chosenLanguage() === "en" ? "zh-CN" : "en";
-  document.querySelector("nav").append(element("span", { className: "page-tools" }, commandButton(palette), languageButton));
+  document
+    .querySelector("nav")
+    .append(element("span", { className: "page-tools" }, commandButton(palette), languageButton));
   listenToKeys(openPalette);
   for (const code of document.querySelectorAll("[data-copy] code")) addCopyButton(code);
 }

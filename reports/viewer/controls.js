@@ -22,7 +22,11 @@ function sliderOf(label, { min, max, step, value }, words, change) {
     change(Number(input.value));
   };
   input.addEventListener("input", () => set(Number(input.value)));
-  return { label: element("label", {}, element("span", {}, say(label)), " ", input, " ", told), set, get: () => Number(input.value) };
+  return {
+    label: element("label", {}, element("span", {}, say(label)), " ", input, " ", told),
+    set,
+    get: () => Number(input.value),
+  };
 }
 
 function layerButtons(viewer, layers) {
@@ -79,7 +83,11 @@ function flipCommands(viewer) {
   return [
     { name: "Hold for the truth", key: "t", run: () => hold("truth"), release: () => hold(null) },
     { name: "Flip to the layer before", key: " ", run: () => show(viewer, viewer.previous) },
-    { name: "Flip, slider or side by side", key: "v", run: () => setMode(viewer, MODES[(MODES.indexOf(viewer.mode) + 1) % MODES.length]) },
+    {
+      name: "Flip, slider or side by side",
+      key: "v",
+      run: () => setMode(viewer, MODES[(MODES.indexOf(viewer.mode) + 1) % MODES.length]),
+    },
   ];
 }
 
@@ -96,11 +104,50 @@ function toneControls(viewer) {
     settings[name] = value;
     refresh(viewer);
   };
-  const exposure = sliderOf("Exposure", { min: -12, max: 12, step: 0.5, value: settings.exposure }, stopsInWords, change("exposure"));
-  const gain = sliderOf("Gain of differences", { min: -6, max: 24, step: 1, value: 0 }, (stops) => `×${rough(2 ** stops)}`, change("gain"));
-  const [gamma] = choiceOf("Curve", [["0", "sRGB"], ["1", "linear"], ["2.2", "gamma 2.2"]], "0", (value) => change("gamma")(Number(value)));
-  const [kind] = choiceOf("Scale", [["automatic", "automatic"], ["linear", "linear"], ["logarithmic", "logarithmic"], ["symmetric", "symmetric logarithm"]], "automatic", change("scaleKind"));
-  const [channel] = choiceOf("Channel", [["-1", "largest of all"], ["0", "red"], ["1", "green"], ["2", "blue"]], "-1", (value) => change("channel")(Number(value)));
+  const exposure = sliderOf(
+    "Exposure",
+    { min: -12, max: 12, step: 0.5, value: settings.exposure },
+    stopsInWords,
+    change("exposure"),
+  );
+  const gain = sliderOf(
+    "Gain of differences",
+    { min: -6, max: 24, step: 1, value: 0 },
+    (stops) => `×${rough(2 ** stops)}`,
+    change("gain"),
+  );
+  const [gamma] = choiceOf(
+    "Curve",
+    [
+      ["0", "sRGB"],
+      ["1", "linear"],
+      ["2.2", "gamma 2.2"],
+    ],
+    "0",
+    (value) => change("gamma")(Number(value)),
+  );
+  const [kind] = choiceOf(
+    "Scale",
+    [
+      ["automatic", "automatic"],
+      ["linear", "linear"],
+      ["logarithmic", "logarithmic"],
+      ["symmetric", "symmetric logarithm"],
+    ],
+    "automatic",
+    change("scaleKind"),
+  );
+  const [channel] = choiceOf(
+    "Channel",
+    [
+      ["-1", "largest of all"],
+      ["0", "red"],
+      ["1", "green"],
+      ["2", "blue"],
+    ],
+    "-1",
+    (value) => change("channel")(Number(value)),
+  );
   const isFalse = element("input", { type: "checkbox" });
   isFalse.addEventListener("change", () => change("falseColour")(isFalse.checked));
   viewer.commands.push(
@@ -110,16 +157,28 @@ function toneControls(viewer) {
     { name: "Less gain of differences", key: "G", run: () => gain.set(gain.get() - 1) },
     { name: "False colour", key: "f", run: () => isFalse.click() },
   );
-  return [exposure.label, gamma, element("label", {}, isFalse, " ", element("span", {}, say("False colour"))), kind, gain.label, channel];
+  return [
+    exposure.label,
+    gamma,
+    element("label", {}, isFalse, " ", element("span", {}, say("False colour"))),
+    kind,
+    gain.label,
+    channel,
+  ];
 }
 
 function toleranceControls(viewer) {
   const LARGEST = 64; // powers of two, in quarters: past 2**16 a tolerance of float32 is everything
   const words = (quarter) => `×${rough(2 ** (quarter / 4))}`;
-  const slider = sliderOf("If the tolerance were", { min: -LARGEST / 4, max: LARGEST, step: 1, value: 0 }, words, (quarter) => {
-    viewer.tolerance = 2 ** (quarter / 4);
-    refresh(viewer);
-  });
+  const slider = sliderOf(
+    "If the tolerance were",
+    { min: -LARGEST / 4, max: LARGEST, step: 1, value: 0 },
+    words,
+    (quarter) => {
+      viewer.tolerance = 2 ** (quarter / 4);
+      refresh(viewer);
+    },
+  );
   const isMasked = element("input", { type: "checkbox" });
   isMasked.addEventListener("change", () => {
     viewer.isMasked = isMasked.checked;
@@ -135,11 +194,21 @@ function toleranceControls(viewer) {
 }
 
 function modeControls(viewer) {
-  const [label, menu] = choiceOf("View", MODES.map((mode) => [mode, mode]), viewer.mode, (mode) => setMode(viewer, mode));
-  const divider = sliderOf("Divider", { min: 0, max: 100, step: 1, value: 50 }, (part) => `${part} %`, (part) => {
-    viewer.divider = part / 100;
-    refresh(viewer);
-  });
+  const [label, menu] = choiceOf(
+    "View",
+    MODES.map((mode) => [mode, mode]),
+    viewer.mode,
+    (mode) => setMode(viewer, mode),
+  );
+  const divider = sliderOf(
+    "Divider",
+    { min: 0, max: 100, step: 1, value: 50 },
+    (part) => `${part} %`,
+    (part) => {
+      viewer.divider = part / 100;
+      refresh(viewer);
+    },
+  );
   viewer.commands.push(
     { name: "Divider to the left", key: "[", run: () => divider.set(divider.get() - 5) },
     { name: "Divider to the right", key: "]", run: () => divider.set(divider.get() + 5) },
@@ -149,43 +218,4 @@ function modeControls(viewer) {
     divider.label.hidden = viewer.mode !== "slider";
   });
   return [label, divider.label];
-}
-
-// Where numbers stand below the scale: in units of the tolerance at its limits, else at the ends and between.
-function markedPlaces(layer, scale) {
-  if (!layer.isJudged || scale.largest <= 1) return [0, 0.25, 0.5, 0.75, 1];
-  return [0, position(-1, scale), position(1, scale), 1];
-}
-
-// The colours of the layer that is shown, with numbers, and the patterns that occur in it.
-function makeLegend(viewer) {
-  const bar = element("canvas", { width: TABLE_LENGTH, height: 1, role: "img" });
-  const marks = element("span", { className: "marks" });
-  const patterns = element("span", { className: "keys" });
-  function fill() {
-    const layer = layerOf(viewer, viewer.current);
-    const isScalar = !layer.isTone || viewer.settings.falseColour;
-    bar.hidden = marks.hidden = !isScalar;
-    if (isScalar) {
-      const scale = scaleOf(layer.isTone ? { ...layer, largest: 1 } : layer, viewer.settings);
-      const pixels = new ImageData(TABLE_LENGTH, 1);
-      const table = COLOURS_OF[scale.isDiverging ? "diverging" : "sequential"];
-      for (let i = 0; i < TABLE_LENGTH; i += 1) pixels.data.set([...table.subarray(COLOURS * i, COLOURS * (i + 1)), 255], 4 * i);
-      bar.getContext("2d").putImageData(pixels, 0, 0);
-      marks.replaceChildren(...markedPlaces(layer, scale).map((place) => {
-        const mark = element("span", {}, rough(valueAt(place, scale)));
-        mark.style.left = `${100 * place}%`;
-        return mark;
-      }));
-      bar.setAttribute("aria-label", say("Scale from {low} to {high}", { low: rough(valueAt(0, scale)), high: rough(valueAt(1, scale)) }));
-    }
-    const present = new Set(layer.classes);
-    patterns.replaceChildren(
-      ...Object.entries(PATTERNS)
-        .filter(([kind]) => present.has(Number(kind)))
-        .map(([kind, { name }]) => element("span", { className: "key" }, element("span", { className: `swatch pattern-${kind}` }), ` ${say(name)}`)),
-    );
-  }
-  viewer.listeners.push(fill);
-  return element("div", { className: "scale-bar" }, bar, marks, patterns);
 }

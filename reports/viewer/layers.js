@@ -1,7 +1,7 @@
 "use strict";
 
-// What can be looked at: images and differences. A layer is {id, name, isTone, values, classes, largest, …}, with three
-// values a pixel where it is an image, and one where it is not.
+// What can be looked at: images and differences. A layer is {id, name, isTone, values, classes, largest, …}, with
+// three values a pixel where it is an image, and one where it is not.
 
 const COLOURS = 3;
 
@@ -19,7 +19,16 @@ function toneLayer(id, name, values) {
       if (kind !== ORDINARY && (classes[place] === ORDINARY || kind < classes[place])) classes[place] = kind;
     }
   }
-  return { id, name, isTone: true, values, classes, largest: largestOf(values), isDiverging: false, scaleKind: "linear" };
+  return {
+    id,
+    name,
+    isTone: true,
+    values,
+    classes,
+    largest: largestOf(values),
+    isDiverging: false,
+    scaleKind: "linear",
+  };
 }
 
 function largestOf(values) {
@@ -31,7 +40,7 @@ function largestOf(values) {
   return largest;
 }
 
-// `kernel(render, truth, distance)` is the number of one channel; `channel` is a channel's, or -1 for the largest of all.
+// `kernel(render, truth, distance)` is the number of one channel; `channel` chooses one, or is -1 for the largest.
 function fieldLayer(arrays, channel, { id, name, kernel, ...rest }) {
   const count = arrays.truth.length / COLOURS;
   const values = new Float32Array(count);
@@ -63,17 +72,41 @@ function relativeDifference(value, truth) {
 const signedDistance = (value, truth, distance) => (value < truth ? -distance : distance);
 
 const FIELDS = [
-  { id: "tolerance", name: "Error in tolerances", kernel: signedDistance, isDiverging: true, scaleKind: "symmetric", threshold: 1, isJudged: true },
+  {
+    id: "tolerance",
+    name: "Error in tolerances",
+    kernel: signedDistance,
+    isDiverging: true,
+    scaleKind: "symmetric",
+    threshold: 1,
+    isJudged: true,
+  },
   { id: "signed", name: "Signed difference", kernel: (v, t) => v - t, isDiverging: true, scaleKind: "linear" },
-  { id: "absolute", name: "Absolute difference", kernel: (v, t) => Math.abs(v - t), isDiverging: false, scaleKind: "logarithmic" },
-  { id: "relative", name: "Relative difference", kernel: relativeDifference, isDiverging: true, scaleKind: "symmetric" },
+  {
+    id: "absolute",
+    name: "Absolute difference",
+    kernel: (v, t) => Math.abs(v - t),
+    isDiverging: false,
+    scaleKind: "logarithmic",
+  },
+  {
+    id: "relative",
+    name: "Relative difference",
+    kernel: relativeDifference,
+    isDiverging: true,
+    scaleKind: "symmetric",
+  },
 ];
 
 // Both keep within what a person looks at: no field is made before it is wanted.
 function fieldOf(viewer, id) {
   const key = `${id} ${viewer.settings.channel}`;
   if (!viewer.fields.has(key)) {
-    const made = fieldLayer(viewer.arrays, viewer.settings.channel, FIELDS.find((field) => field.id === id));
+    const made = fieldLayer(
+      viewer.arrays,
+      viewer.settings.channel,
+      FIELDS.find((field) => field.id === id),
+    );
     viewer.fields.set(key, made);
   }
   return viewer.fields.get(key);
@@ -86,7 +119,16 @@ function deviationLayer(variance, count) {
     values[place] = Math.sqrt(Math.max(...variance.subarray(channels * place, channels * (place + 1))));
   }
   const classes = Uint8Array.from(values, classOf);
-  return { id: "deviation", name: "Standard deviation", isTone: false, values, classes, largest: largestOf(values), isDiverging: false, scaleKind: "linear" };
+  return {
+    id: "deviation",
+    name: "Standard deviation",
+    isTone: false,
+    values,
+    classes,
+    largest: largestOf(values),
+    isDiverging: false,
+    scaleKind: "linear",
+  };
 }
 
 function layerOf(viewer, id) {

@@ -8,9 +8,14 @@ function startOverview() {
   const rows = [...document.querySelectorAll(".matrix [data-scene]")];
   const sections = [...document.querySelectorAll("section.scene")];
   const announcement = document.getElementById("filter-result");
-  const [text, renderer, feature] = ["text", "renderer", "feature"].map((name) => document.getElementById(`filter-${name}`));
+  const [text, renderer, feature] = ["text", "renderer", "feature"].map((name) =>
+    document.getElementById(`filter-${name}`),
+  );
   const words = new Map(
-    cells.map((cell) => [cell, `${cell.closest("tr").dataset.scene} ${cell.dataset.renderer} ${cell.title}`.toLowerCase()]),
+    cells.map((cell) => [
+      cell,
+      `${cell.closest("tr").dataset.scene} ${cell.dataset.renderer} ${cell.title}`.toLowerCase(),
+    ]),
   );
 
   function apply() {

@@ -1,7 +1,7 @@
 "use strict";
 
-// Layers drawn on a canvas without WebGL: each is coloured once as a picture of its own size, which is then drawn at any
-// zoom.
+// Layers drawn on a canvas without WebGL: each is coloured once as a picture of its own size, which is then drawn at
+// any zoom.
 
 function settingsKey(layer, settings) {
   const { exposure, gamma, falseColour, scaleKind, gain, channel } = settings;
@@ -57,7 +57,7 @@ function makeCanvasPainter(width, height) {
     return picture;
   }
 
-  // `view` is {x, y, scale}: which point of the image is at the top left, and how many pixels of the screen one is large.
+  // `view` is {x, y, scale}: which point is at the top left, and how many pixels of the screen one of the image is large.
   function draw(context, layer, settings, view) {
     context.imageSmoothingEnabled = false;
     const { x, y, scale } = view;

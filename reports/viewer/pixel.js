@@ -18,17 +18,39 @@ function valueRows(viewer, place) {
   const truths = colourOf(truth, place);
   const distances = colourOf(distance, place);
   const rows = [
-    tableRow([viewer.isJudged ? say(viewer.cell.isMean ? "Mean" : "Value") : viewer.cell.names[1]], values.map((value) => [exact(value)])),
-    tableRow([viewer.isJudged ? say("Truth") : viewer.cell.names[0]], truths.map((value) => [exact(value)])),
-    tableRow([say("Difference")], values.map((value, i) => [rough(value - truths[i])])),
-    tableRow([say("Bits of error")], values.map((value, i) => [bitsOfError(value, truths[i]).toFixed(1)])),
+    tableRow(
+      [viewer.isJudged ? say(viewer.cell.isMean ? "Mean" : "Value") : viewer.cell.names[1]],
+      values.map((value) => [exact(value)]),
+    ),
+    tableRow(
+      [viewer.isJudged ? say("Truth") : viewer.cell.names[0]],
+      truths.map((value) => [exact(value)]),
+    ),
+    tableRow(
+      [say("Difference")],
+      values.map((value, i) => [rough(value - truths[i])]),
+    ),
+    tableRow(
+      [say("Bits of error")],
+      values.map((value, i) => [bitsOfError(value, truths[i]).toFixed(1)]),
+    ),
   ];
   if (distances[0] >= 0 || Number.isNaN(distances[0])) {
-    rows.push(tableRow([say("Distance")], distances.map((far) => [far <= 1 ? rough(far) : `✗ ${rough(far)}`])));
+    rows.push(
+      tableRow(
+        [say("Distance")],
+        distances.map((far) => [far <= 1 ? rough(far) : `✗ ${rough(far)}`]),
+      ),
+    );
   }
   for (const [id, layer] of viewer.images) {
     if (!id.startsWith("other")) continue;
-    rows.push(tableRow([layerName(layer)], colourOf(layer.values, place).map((value) => [exact(value)])));
+    rows.push(
+      tableRow(
+        [layerName(layer)],
+        colourOf(layer.values, place).map((value) => [exact(value)]),
+      ),
+    );
   }
   return rows;
 }
@@ -44,7 +66,11 @@ function outcomeRows(viewer, place) {
   const isInside = worstDistance(viewer, place) <= 1;
   let title = say("Feasible interval");
   if (viewer.cell.isMean) title = say("Feasible interval of the expectation");
-  else if (count > 1) title = say("{count} feasible outcomes, from … to ({mark})", { count, mark: say(isInside ? "✓ holds the value" : "◂ is the nearest") });
+  else if (count > 1)
+    title = say("{count} feasible outcomes, from … to ({mark})", {
+      count,
+      mark: say(isInside ? "✓ holds the value" : "◂ is the nearest"),
+    });
   const rows = [element("tr", {}, element("th", { scope: "rowgroup", colSpan: 1 + COLOURS }, title))];
   for (let outcome = 0; outcome < count; outcome += 1) {
     const box = viewer.firstBoxes[place] + outcome;
@@ -52,7 +78,13 @@ function outcomeRows(viewer, place) {
     const isNearest = count > 1 && outcome === nearest[place];
     const mark = isNearest ? (isInside ? " ✓" : " ◂") : "";
     const header = count === 1 ? [say("from"), say("to")] : [`${outcome + 1}${mark}`];
-    rows.push(tableRow(header, lows.map((end, i) => interval(end, highs[i])), isNearest));
+    rows.push(
+      tableRow(
+        header,
+        lows.map((end, i) => interval(end, highs[i])),
+        isNearest,
+      ),
+    );
   }
   return rows;
 }
@@ -68,23 +100,40 @@ function outcomeInWords(viewer, place) {
   const distance = worstDistance(viewer, place);
   if (!viewer.isJudged) {
     const [values, others] = [colourOf(viewer.arrays.render, place), colourOf(viewer.arrays.truth, place)];
-    return say("they differ by {differences}", { differences: values.map((value, i) => rough(value - others[i])).join(", ") });
+    return say("they differ by {differences}", {
+      differences: values.map((value, i) => rough(value - others[i])).join(", "),
+    });
   }
   const count = viewer.arrays.outcomes[place];
   const far = rough(distance);
   const sentences = [];
   if (distance < 0) sentences.push(say("not judged, since the renderer’s arithmetic leaves everything open"));
   else if (viewer.cell.isMean) {
-    const words = distance > 1 ? "✗ its mean is too unlikely, at a distance of {far} where 1 is the significance" : "✓ its mean is likely enough, at a distance of {far} where 1 is the significance";
+    const words =
+      distance > 1
+        ? "✗ its mean is too unlikely, at a distance of {far} where 1 is the significance"
+        : "✓ its mean is likely enough, at a distance of {far} where 1 is the significance";
     sentences.push(say(words, { far }));
   } else if (count > 1) {
-    const words = distance > 1 ? "✗ outside its {count} feasible outcomes, {far} tolerances from the middle of the nearest" : "✓ within its {count} feasible outcomes, {far} tolerances from the middle of the nearest";
+    const words =
+      distance > 1
+        ? "✗ outside its {count} feasible outcomes, {far} tolerances from the middle of the nearest"
+        : "✓ within its {count} feasible outcomes, {far} tolerances from the middle of the nearest";
     sentences.push(say(words, { count, far }));
   } else {
-    sentences.push(say(distance > 1 ? "✗ outside its feasible interval, {far} tolerances from the middle" : "✓ within its feasible interval, {far} tolerances from the middle", { far }));
+    sentences.push(
+      say(
+        distance > 1
+          ? "✗ outside its feasible interval, {far} tolerances from the middle"
+          : "✓ within its feasible interval, {far} tolerances from the middle",
+        { far },
+      ),
+    );
   }
-  if (viewer.arrays.declared[place]) sentences.push(say("◐ as declared, not as due: only a shortcut that the renderer declares explains it"));
-  if (viewer.arrays.merged[place]) sentences.push(say("capped: there are more outcomes than are told apart, and a box holds several"));
+  if (viewer.arrays.declared[place])
+    sentences.push(say("◐ as declared, not as due: only a shortcut that the renderer declares explains it"));
+  if (viewer.arrays.merged[place])
+    sentences.push(say("capped: there are more outcomes than are told apart, and a box holds several"));
   return sentences.join(say("; "));
 }
 
@@ -92,13 +141,19 @@ const READ_AFTER = 200; // milliseconds: a screen reader need not begin with pix
 
 function makePixelPanel(viewer) {
   const { width, height, explain } = viewer.cell;
-  const coordinate = (size) => element("input", { type: "number", min: 0, max: size - 1, step: 1, inputMode: "numeric" });
+  const coordinate = (size) =>
+    element("input", { type: "number", min: 0, max: size - 1, step: 1, inputMode: "numeric" });
   const [xInput, yInput] = [coordinate(width), coordinate(height)];
   const status = element("p", { className: "outcome" });
   const spoken = element("p", { className: "visually-hidden", role: "status" });
   const body = element("tbody");
   const outcomes = element("tbody");
-  const head = element("tr", {}, element("td"), ...["red", "green", "blue"].map((name) => element("th", { scope: "col" }, say(name))));
+  const head = element(
+    "tr",
+    {},
+    element("td"),
+    ...["red", "green", "blue"].map((name) => element("th", { scope: "col" }, say(name))),
+  );
   const table = element("table", {}, element("thead", {}, head), body, outcomes);
   const code = element("code");
   const command = element("div", { className: "command", translate: "no" }, element("pre", { tabIndex: 0 }, code));
@@ -133,10 +188,20 @@ function makePixelPanel(viewer) {
   return element(
     "section",
     { className: "pixel" },
-    element("div", { className: "choice" }, element("h3", {}, say("Pixel")), element("label", {}, "x ", xInput), element("label", {}, "y ", yInput)),
+    element(
+      "div",
+      { className: "choice" },
+      element("h3", {}, say("Pixel")),
+      element("label", {}, "x ", xInput),
+      element("label", {}, "y ", yInput),
+    ),
     status,
     spoken,
-    element("div", { className: "scroll", tabIndex: 0, role: "region", "aria-label": say("Values of the pixel") }, table),
+    element(
+      "div",
+      { className: "scroll", tabIndex: 0, role: "region", "aria-label": say("Values of the pixel") },
+      table,
+    ),
     ...(explain ? [element("p", { className: "label" }, say("To see how the pixel comes about:")), command] : []),
   );
 }

@@ -80,12 +80,19 @@ function makeRegions(viewer) {
     summary.textContent =
       viewer.tolerance === 1
         ? say("{pixels} failing pixels in {regions} regions.", counts)
-        : say("{pixels} pixels in {regions} regions would fail if the tolerance were {tolerance} times as large.", counts);
+        : say(
+            "{pixels} pixels in {regions} regions would fail if the tolerance were {tolerance} times as large.",
+            counts,
+          );
     list.replaceChildren(
       ...regions.slice(0, MOST_REGIONS).map((region, index) => {
         const [x, y] = [region.place % viewer.cell.width, Math.floor(region.place / viewer.cell.width)];
         const words = { count: region.count, x, y, worst: rough(region.worst) };
-        const button = element("button", { type: "button" }, say("{count} pixels, worst ({x}, {y}): {worst} tolerances", words));
+        const button = element(
+          "button",
+          { type: "button" },
+          say("{count} pixels, worst ({x}, {y}): {worst} tolerances", words),
+        );
         button.addEventListener("click", () => go(index));
         return element("li", {}, button);
       }),
@@ -94,5 +101,8 @@ function makeRegions(viewer) {
   viewer.listeners.push(fill);
   const next = { name: "Next failing region", key: "n", run: () => go(at + 1) };
   const previous = { name: "Previous failing region", key: "p", run: () => go(at < 0 ? -1 : at - 1) };
-  return { panel: element("section", {}, element("h3", {}, say("Failing pixels")), summary, list), commands: [next, previous] };
+  return {
+    panel: element("section", {}, element("h3", {}, say("Failing pixels")), summary, list),
+    commands: [next, previous],
+  };
 }

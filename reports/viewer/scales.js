@@ -3,7 +3,8 @@
 // From numbers to colours. The same formulas are in the shader of webgl.js.
 
 const SCALE_KINDS = ["linear", "logarithmic", "symmetric"];
-const STOPS_OF_LOGARITHM = 6; // powers of ten below the largest value: what is smaller than a float32's relative error is noise
+// Powers of ten below the largest value: what is smaller than a float32's relative error of 6e-8 is noise.
+const STOPS_OF_LOGARITHM = 6;
 
 // What a pixel is, beside its number: these are drawn as patterns of two colours, pixel by pixel.
 const ORDINARY = 0;
@@ -13,11 +14,41 @@ const MINUS_INFINITE = 3;
 const NEGATIVE = 4;
 const UNJUDGED = 5;
 const PATTERNS = {
-  [NOT_A_NUMBER]: { name: "not a number", colours: [[255, 0, 255], [0, 0, 0]] },
-  [INFINITE]: { name: "infinite", colours: [[255, 0, 255], [255, 255, 255]] },
-  [MINUS_INFINITE]: { name: "−infinite", colours: [[0, 0, 0], [255, 255, 255]] },
-  [NEGATIVE]: { name: "negative", colours: [[0, 140, 190], [0, 30, 60]] },
-  [UNJUDGED]: { name: "not judged", colours: [[140, 140, 140], [217, 217, 217]] },
+  [NOT_A_NUMBER]: {
+    name: "not a number",
+    colours: [
+      [255, 0, 255],
+      [0, 0, 0],
+    ],
+  },
+  [INFINITE]: {
+    name: "infinite",
+    colours: [
+      [255, 0, 255],
+      [255, 255, 255],
+    ],
+  },
+  [MINUS_INFINITE]: {
+    name: "−infinite",
+    colours: [
+      [0, 0, 0],
+      [255, 255, 255],
+    ],
+  },
+  [NEGATIVE]: {
+    name: "negative",
+    colours: [
+      [0, 140, 190],
+      [0, 30, 60],
+    ],
+  },
+  [UNJUDGED]: {
+    name: "not judged",
+    colours: [
+      [140, 140, 140],
+      [217, 217, 217],
+    ],
+  },
 };
 
 function bytesOf(table) {
@@ -30,8 +61,8 @@ const TABLE_LENGTH = 256;
 
 const symmetricLogarithm = (value, threshold) => Math.sign(value) * Math.log1p(Math.abs(value) / threshold);
 
-// Where a number lies on its scale, from 0 to 1. A scale is {kind, isDiverging, largest, threshold}: of a diverging one 0
-// is in the middle; the symmetric logarithm is nearly linear up to the threshold.
+// Where a number lies on its scale, from 0 to 1. A scale is {kind, isDiverging, largest, threshold}: of a diverging one
+// 0 is in the middle; the symmetric logarithm is nearly linear up to the threshold.
 function position(value, scale) {
   const { kind, isDiverging, largest, threshold } = scale;
   let part;

@@ -1,12 +1,10 @@
 "use strict";
 
-// The panes of a viewer: which layers they show, zoom and pan, which all panes share, and what is drawn over the pixels.
+// The panes of a viewer: which layers they show, and the zoom and pan that all of them share.
 
 const MODES = ["flip", "slider", "side by side"];
 const LEAST_FOR_NUMBERS = 44; // pixels of the screen: four digits of the smallest legible type are so wide
-const LEAST_FOR_GRID = 12; // below, lines would cover more than a sixth of a pixel
-const LARGEST_ZOOM = 160;
-const FAILING_MARK = [[255, 0, 255, 255], [0, 0, 0, 255]];
+const LARGEST_ZOOM = 160; // pixels of the screen: more than all digits of a pixel need
 
 function makePane(viewer) {
   const canvas = element("canvas", { "aria-hidden": "true" });
@@ -21,7 +19,13 @@ function shownLayers(viewer) {
   const shown = viewer.held ?? viewer.current;
   if (viewer.mode === "flip") return [[shown]];
   if (viewer.mode === "slider") return [[viewer.previous, shown]];
-  return [...new Set(["truth", "render", shown === "truth" || shown === "render" ? (viewer.isJudged ? "tolerance" : "signed") : shown])].map((id) => [id]);
+  return [
+    ...new Set([
+      "truth",
+      "render",
+      shown === "truth" || shown === "render" ? (viewer.isJudged ? "tolerance" : "signed") : shown,
+    ]),
+  ].map((id) => [id]);
 }
 
 function layOut(viewer) {
@@ -113,7 +117,13 @@ function draw(viewer) {
     layOut(viewer);
     if (viewer.isFitted) fit(viewer);
   }
-  viewer.panes.forEach((pane, i) => drawPane(viewer, pane, layers[i].map((id) => layerOf(viewer, id))));
+  viewer.panes.forEach((pane, i) =>
+    drawPane(
+      viewer,
+      pane,
+      layers[i].map((id) => layerOf(viewer, id)),
+    ),
+  );
 }
 
 function drawPane(viewer, pane, layers) {
@@ -143,21 +153,6 @@ function drawPane(viewer, pane, layers) {
   pane.label.textContent = layers.map((layer) => layerName(layer)).join(" | ");
 }
 
-function drawMask(viewer, context, view) {
-  const { width, height } = viewer.cell;
-  if (viewer.maskFor !== viewer.tolerance) {
-    const pixels = new ImageData(width, height);
-    for (const place of failingPlaces(viewer)) {
-      pixels.data.set(FAILING_MARK[((place % width) + Math.floor(place / width)) % 2], 4 * place);
-    }
-    viewer.mask = element("canvas", { width, height });
-    viewer.mask.getContext("2d").putImageData(pixels, 0, 0);
-    viewer.maskFor = viewer.tolerance;
-  }
-  context.imageSmoothingEnabled = false;
-  context.drawImage(viewer.mask, -view.x * view.scale, -view.y * view.scale, width * view.scale, height * view.scale);
-}
-
 function visiblePart(viewer) {
   const [width, height] = paneSize(viewer);
   const { x, y, scale } = viewer.view;
@@ -168,101 +163,4 @@ function visiblePart(viewer) {
     right: within(Math.ceil(x + width / scale), viewer.cell.width),
     bottom: within(Math.ceil(y + height / scale), viewer.cell.height),
   };
-}
-
-function drawNumbers(viewer, context, layer, view, ratio) {
-  const size = view.scale;
-  if (size / ratio < LEAST_FOR_GRID) return;
-  const { left, top, right, bottom } = visiblePart(viewer);
-  const hasNumbers = size / ratio >= LEAST_FOR_NUMBERS;
-  context.font = `${Math.min(size / 4.6, 13 * ratio)}px ui-monospace, monospace`;
-  context.textAlign = "center";
-  context.textBaseline = "middle";
-  context.lineJoin = "round";
-  context.strokeStyle = "rgba(128, 128, 128, 0.5)";
-  context.lineWidth = ratio;
-  for (let y = top; y < bottom; y += 1) {
-    for (let x = left; x < right; x += 1) {
-      const [screenX, screenY] = [(x - view.x) * size, (y - view.y) * size];
-      context.strokeRect(screenX, screenY, size, size);
-      if (hasNumbers) drawLines(context, linesOf(layer, y * viewer.cell.width + x), screenX + size / 2, screenY + size / 2, size);
-    }
-  }
-}
-
-function linesOf(layer, place) {
-  const channels = layer.isTone ? COLOURS : 1;
-  return [...layer.values.subarray(channels * place, channels * (place + 1))].map(short);
-}
-
-function drawLines(context, lines, x, y, size) {
-  context.save();
-  context.fillStyle = "#fff";
-  context.strokeStyle = "#000";
-  context.lineWidth = size / 24;
-  lines.forEach((line, i) => {
-    const at = y + (i - (lines.length - 1) / 2) * (size / 3.6);
-    context.strokeText(line, x, at, size * 0.96);
-    context.fillText(line, x, at, size * 0.96);
-  });
-  context.restore();
-}
-
-function drawMarker(viewer, context, view, ratio) {
-  const size = Math.max(view.scale, 5 * ratio);
-  const x = (viewer.pixel.x + 0.5 - view.x) * view.scale - size / 2;
-  const y = (viewer.pixel.y + 0.5 - view.y) * view.scale - size / 2;
-  for (const [colour, grow] of [["#fff", 3], ["#000", 1.5]]) {
-    context.strokeStyle = colour;
-    context.lineWidth = 2 * ratio;
-    context.strokeRect(x - grow * ratio, y - grow * ratio, size + 2 * grow * ratio, size + 2 * grow * ratio);
-  }
-}
-
-const DRAG = 4; // pixels of the screen: less is a click of a hand that is not quite still
-
-function listenToPointer(viewer, pane) {
-  const { host } = pane;
-  let start = null;
-  const placeOf = (event) => {
-    const box = host.getBoundingClientRect();
-    const { x, y, scale } = viewer.view;
-    return [x + (event.clientX - box.left) / scale, y + (event.clientY - box.top) / scale];
-  };
-  host.addEventListener("pointerdown", (event) => {
-    start = { at: [event.clientX, event.clientY], view: { ...viewer.view }, isDrag: false };
-  });
-  host.addEventListener("pointermove", (event) => {
-    if (start && event.buttons === 1) {
-      const [right, down] = [event.clientX - start.at[0], event.clientY - start.at[1]];
-      start.isDrag ||= Math.hypot(right, down) > DRAG;
-      if (!start.isDrag) return;
-      viewer.view = { ...start.view, x: start.view.x - right / start.view.scale, y: start.view.y - down / start.view.scale };
-      viewer.isFitted = false;
-      refresh(viewer);
-    } else if (!viewer.isPinned && event.pointerType === "mouse") choosePixel(viewer, ...placeOf(event));
-  });
-  host.addEventListener("click", (event) => {
-    const wasDrag = start?.isDrag;
-    start = null;
-    if (wasDrag) return;
-    viewer.isPinned = true;
-    viewer.stage.focus({ preventScroll: true });
-    choosePixel(viewer, ...placeOf(event));
-  });
-  host.addEventListener(
-    "wheel",
-    (event) => {
-      if (document.activeElement !== viewer.stage && !event.ctrlKey) return; // else the page scrolls
-      event.preventDefault();
-      zoomAbout(viewer, 2 ** (-event.deltaY / 240), ...placeOf(event));
-    },
-    { passive: false },
-  );
-}
-
-function choosePixel(viewer, x, y) {
-  const within = (value, size) => Math.min(Math.max(Math.floor(value) || 0, 0), size - 1);
-  viewer.pixel = { x: within(x, viewer.cell.width), y: within(y, viewer.cell.height) };
-  refresh(viewer);
 }

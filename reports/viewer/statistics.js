@@ -38,7 +38,12 @@ function statisticsRows(all) {
 function makeStatistics(viewer) {
   const caption = element("caption");
   const table = element("table", {}, caption);
-  const details = element("details", {}, element("summary", {}, say("Statistics of what is seen")), element("div", { className: "scroll", tabIndex: 0, role: "region", "aria-label": say("Statistics") }, table));
+  const details = element(
+    "details",
+    {},
+    element("summary", {}, say("Statistics of what is seen")),
+    element("div", { className: "scroll", tabIndex: 0, role: "region", "aria-label": say("Statistics") }, table),
+  );
 
   function fill() {
     if (!details.open) return;
@@ -46,7 +51,11 @@ function makeStatistics(viewer) {
     const part = visiblePart(viewer);
     const names = layer.isTone ? [say("red"), say("green"), say("blue")] : [layerName(layer)];
     const all = names.map((_, channel) => channelStatistics(layer, channel, part, viewer.cell.width));
-    caption.textContent = say("Columns {left} to {right}, rows {top} to {bottom}", { ...part, right: part.right - 1, bottom: part.bottom - 1 });
+    caption.textContent = say("Columns {left} to {right}, rows {top} to {bottom}", {
+      ...part,
+      right: part.right - 1,
+      bottom: part.bottom - 1,
+    });
     const head = element("tr", {}, element("td"), ...names.map((name) => element("th", { scope: "col" }, name)));
     const rows = statisticsRows(all).map(([name, texts]) =>
       element("tr", {}, element("th", { scope: "row" }, say(name)), ...texts.map((text) => element("td", {}, text))),

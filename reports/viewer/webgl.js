@@ -57,7 +57,10 @@ void main() {
 
 function compiledProgram(gl) {
   const program = gl.createProgram();
-  for (const [kind, source] of [[gl.VERTEX_SHADER, VERTEX_SHADER], [gl.FRAGMENT_SHADER, FRAGMENT_SHADER]]) {
+  for (const [kind, source] of [
+    [gl.VERTEX_SHADER, VERTEX_SHADER],
+    [gl.FRAGMENT_SHADER, FRAGMENT_SHADER],
+  ]) {
     const shader = gl.createShader(kind);
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
@@ -90,7 +93,12 @@ function withClasses(layer) {
 function patternColours() {
   const colours = new Float32Array(36);
   for (const [kind, { colours: pair }] of Object.entries(PATTERNS)) {
-    pair.forEach((rgb, i) => colours.set(rgb.map((byte) => byte / 255), 6 * Number(kind) + 3 * i));
+    pair.forEach((rgb, i) =>
+      colours.set(
+        rgb.map((byte) => byte / 255),
+        6 * Number(kind) + 3 * i,
+      ),
+    );
   }
   return colours;
 }
@@ -107,7 +115,8 @@ function isSoftware(gl) {
 function makeWebglPainter(width, height, isAsked) {
   const canvas = element("canvas");
   const gl = canvas.getContext("webgl2", { alpha: true, premultipliedAlpha: false, antialias: false });
-  if (!gl || (isSoftware(gl) && !isAsked) || Math.max(width, height) > gl.getParameter(gl.MAX_TEXTURE_SIZE)) return null;
+  if (!gl || (isSoftware(gl) && !isAsked) || Math.max(width, height) > gl.getParameter(gl.MAX_TEXTURE_SIZE))
+    return null;
   const program = compiledProgram(gl);
   if (!program) return null;
   gl.useProgram(program);
