@@ -21,16 +21,26 @@ def comparison_page(names: tuple[str, str], images: tuple[Image, Image]) -> str:
     """The page of two linear images of the same shape (height, width, 3), with the names of their files."""
     parts = Parts()
     first, second = images
-    height, width = first.shape[:2]
-    stops = pictures.exposure_stops(first)
     difference = pictures.signed_difference(second, first)
+    same = int((first.view(np.uint32) == second.view(np.uint32)).all(axis=2).sum())
+    largest = number(pictures.largest_finite(difference))
+    sentence = f"{same} of {difference.size} pixels are the same, bit by bit; the largest difference is {largest}."
+    contents = {
+        "names": names,
+        "figures": _figures(names, images, difference, parts),
+        "viewer": _viewer(names, images, difference, parts),
+        "sentence": sentence,
+    }
+    return pages.comparison(parts, contents)
+
+
+def _figures(names: tuple[str, str], images: tuple[Image, Image], difference: Image, parts: Parts) -> list[Figure]:
+    height, width = difference.shape
+    stops = pictures.exposure_stops(images[0])
+    shown = [parts.add_picture(pictures.tone_picture(image, stops)) for image in images]
     scale = pictures.largest_finite(difference)
-    shown = [pictures.tone_picture(image, stops) for image in images]
-    figures = [
-        *(
-            Figure(name, "", name, width, height, parts.add_picture(png))
-            for name, png in zip(names, shown, strict=True)
-        ),
+    return [
+        *(Figure(name, "", name, width, height, png) for name, png in zip(names, shown, strict=True)),
         Figure(
             "Signed difference",
             "the second minus the first, the channel that differs most",
@@ -43,20 +53,20 @@ def comparison_page(names: tuple[str, str], images: tuple[Image, Image]) -> str:
             high=f"+{number(scale)}",
         ),
     ]
-    place = np.nan_to_num(np.abs(difference), nan=np.inf).argmax()
-    viewer = {
+
+
+def _viewer(names: tuple[str, str], images: tuple[Image, Image], difference: Image, parts: Parts) -> dict[str, object]:
+    """As `viewer_data` for a cell, without what judges it."""
+    height, width = difference.shape
+    place = int(np.nan_to_num(np.abs(difference), nan=np.inf).argmax())
+    arrays = [parts.add_arrays(script_json({"value": packed(image, "<f4")})) for image in images]
+    return {
         "width": width,
         "height": height,
-        "worst": [int(place % width), int(place // width)],
+        "worst": [place % width, place // width],
         "names": list(names),
         "isMean": False,
-        "stops": stops,
-        "arrays": {
-            "truth": parts.add_arrays(script_json({"value": packed(first, "<f4")})),
-            "render": parts.add_arrays(script_json({"value": packed(second, "<f4")})),
-        },
+        "stops": pictures.exposure_stops(images[0]),
+        "arrays": dict(zip(("truth", "render"), arrays, strict=True)),
         "others": [],
     }
-    same = int((first.view(np.uint32) == second.view(np.uint32)).all(axis=2).sum())
-    sentence = f"{same} of {width * height} pixels are the same, bit by bit; the largest difference is {number(scale)}."
-    return pages.comparison(parts, {"names": names, "figures": figures, "viewer": viewer, "sentence": sentence})

@@ -9,6 +9,7 @@ from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
 
 from raytruth.reports.html import write_html_report
 from tests.browser.static_server import StaticServer
+from tests.browser.viewing import FAILING, cell_page, ready
 from tests.reports.sample_results import write_sample
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
@@ -113,3 +114,13 @@ def served(report: Path) -> Iterator[Any]:
     yield serve
     for server in servers:
         server.close()
+
+
+@pytest.fixture
+def opened(visit: Any, report: Path) -> Any:
+    """Opens the page of a cell in English, and waits for its viewer."""
+
+    def open_cell(name: str = FAILING, **options: Any) -> Page:
+        return ready(visit(path=cell_page(report, name), **{"locale": "en-GB", **options}).page)
+
+    return open_cell
