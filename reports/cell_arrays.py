@@ -15,6 +15,7 @@ import numpy as np
 
 from raytruth.reports.loading import ReportError
 from raytruth.reports.script_data import script_json
+from raytruth.reports.wording import printable
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -76,7 +77,7 @@ def viewer_data(cell: Cell, images: CellImages, arrays: dict[str, str]) -> dict[
         "width": width,
         "height": height,
         "worst": [0, 0] if worst is None else [worst.x, worst.y],
-        "explain": f"raytruth explain {shlex.quote(cell.source or cell.scene)} --pixel ",
+        "explain": printable(f"raytruth explain {shlex.quote(cell.source or cell.scene)} --pixel "),
         "isMean": cell.stochastic is not None,
         "stops": images.stops,
         "arrays": arrays,

@@ -11,7 +11,7 @@ from raytruth.reports.cell_arrays import packed
 from raytruth.reports.figures import Figure
 from raytruth.reports.parts import Parts
 from raytruth.reports.script_data import script_json
-from raytruth.reports.wording import number
+from raytruth.reports.wording import number, printable
 
 if TYPE_CHECKING:
     from raytruth.comparisons.records.renderings import Image
@@ -64,7 +64,7 @@ def _viewer(names: tuple[str, str], images: tuple[Image, Image], difference: Ima
         "width": width,
         "height": height,
         "worst": [place % width, place // width],
-        "names": list(names),
+        "names": [printable(name) for name in names],
         "isMean": False,
         "stops": pictures.exposure_stops(images[0]),
         "arrays": dict(zip(("truth", "render"), arrays, strict=True)),

@@ -39,6 +39,7 @@ CELL_SCRIPTS = (
     "regions.js",
     "statistics.js",
     "pixel.js",
+    "tree.js",
     "controls.js",
     "legend.js",
     "address.js",

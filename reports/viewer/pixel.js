@@ -203,5 +203,6 @@ function makePixelPanel(viewer) {
       table,
     ),
     ...(explain ? [element("p", { className: "label" }, say("To see how the pixel comes about:")), command] : []),
+    ...(explain ? [makeProofPanel(viewer)] : []),
   );
 }

@@ -9,7 +9,9 @@ from playwright.sync_api import expect
 
 from raytruth.comparisons.records.image_files import read_image
 from raytruth.comparisons.records.pixel_evidence import read_pixel_evidence
+from raytruth.reference_tracer.pixel_proof import pixel_proof
 from raytruth.reports.html import write_html_report
+from raytruth.scenes.library import open_scene
 from tests.browser.viewing import (
     STOCHASTIC,
     VIEWER,
@@ -223,3 +225,56 @@ def test_hostile_words_stay_words(visit: Any, tmp_path: Path) -> None:
     assert page.locator(".pixel code").inner_text() == f"raytruth explain '{quoted}' --pixel 50,20"
     assert page.locator("p.reason").first.inner_text() == HOSTILE
     assert opened.complaints == []
+
+
+@pytest.fixture(scope="module")
+def proof_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("proof") / "proof.json"
+    path.write_text(pixel_proof(open_scene("glass-sphere"), 32, 32).model_dump_json(), encoding="utf-8")
+    return path
+
+
+@pytest.mark.clause("REP-14")
+def test_a_proof_is_opened_as_a_tree_whose_terms_are_there(opened: Any, proof_file: Path) -> None:
+    page = opened()
+    page.get_by_text("Ray tree").click()
+    page.locator("input[type=file]").set_input_files(proof_file)
+    rays = json.loads(proof_file.read_text(encoding="utf-8"))["explanation"]["rays"]
+    expect(page.locator(".tree li:not(.soft)")).to_have_count(len(rays))
+    expect_pixel(page, 32, 32)
+    for child in [ray for ray in rays if ray["parent"] is not None][:4]:
+        kind = {"reflected": "reflected ray", "transmitted": "transmitted ray"}[child["kind"]]
+        assert page.locator(".tree li li:not(.soft) > span:first-child").filter(has_text=kind).count() > 0
+    assert page.locator(".tree > li").count() == 1
+    expect(page.locator(".pixel details p")).to_contain_text("Sum of all contributions: (0.415, 0.452, 0.577)")
+
+
+@pytest.mark.clause("REP-2", "REP-14")
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", "[]", "null", "{}", '{"low": [], "high": [], "explanation": {"sum": [1], "rays": [{}]}}', "\0"],
+)
+def test_another_file_is_told_to_be_no_proof(opened: Any, tmp_path: Path, text: str) -> None:
+    (tmp_path / "other.json").write_text(text, encoding="utf-8")
+    page = opened()
+    page.get_by_text("Ray tree").click()
+    page.locator("input[type=file]").set_input_files(tmp_path / "other.json")
+    expect(page.locator(".pixel details .problem")).to_have_text("The file is no proof of a pixel.")
+
+
+@pytest.mark.clause("REP-2", "REP-14")
+def test_hostile_words_of_a_proof_stay_words(visit: Any, report: Path, proof_file: Path, tmp_path: Path) -> None:
+    text = proof_file.read_text(encoding="utf-8")
+    document = json.loads(text)
+    hostile = "<img src=x onerror=alert(1)>"
+    for ray in document["explanation"]["rays"]:
+        if ray["hit"]:
+            ray["hit"]["material"] = hostile
+    (tmp_path / "hostile.json").write_text(json.dumps(document), encoding="utf-8")
+    visited = visit(path=cell_page(report), locale="en-GB")
+    page = ready(visited.page)
+    page.get_by_text("Ray tree").click()
+    page.locator("input[type=file]").set_input_files(tmp_path / "hostile.json")
+    expect(page.locator(".tree li").first).to_contain_text(hostile)
+    assert page.locator(".tree img").count() == 0
+    assert visited.complaints == []

@@ -123,3 +123,9 @@ def test_a_missing_image_gets_one_sentence(image: str, tmp_path: Path) -> None:
     (tmp_path / getattr(cell.images, image)).unlink()
     with pytest.raises(ReportError, match=rf"{image}\.exr is missing"):
         written(tmp_path, cell)
+
+
+@pytest.mark.clause("REP-2")
+def test_control_characters_of_names_are_marks(tmp_path: Path) -> None:
+    cell = sample_cell(tmp_path, source="a\u202eb\x1b")
+    assert "a\ufffdb\ufffd" in viewer_data(cell, images_of(tmp_path, cell), {})["explain"]
