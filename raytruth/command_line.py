@@ -41,6 +41,11 @@ COMMANDS = {
         "Exit status as that of `raytruth run`. Examples: `raytruth judge mine.exr --scene whitted-1980`, "
         "`raytruth judge mine.png --scene mine.json --renderer-file mine.toml --out results`",
     ),
+    "compare": (
+        "raytruth.compare_command:compare",
+        "Show two images side by side, pixel by pixel, with the truth beside them where a scene is named.",
+        "Examples: `raytruth compare before.exr after.exr`, `raytruth compare a.exr b.exr --scene whitted-1980`",
+    ),
     "grade": (
         "raytruth.grade_command:grade",
         "Grade one program by an assignment: points, and a proof of what explains the pixels that are wrong.",
@@ -95,7 +100,9 @@ COMMANDS = {
     "explain": (
         "raytruth.explain_command:explain",
         "Explain one pixel: every ray of its tree, every hit, normal, term and weight, and the sum.",
-        "Examples: `raytruth explain whitted-1980 --pixel 80,60`, `raytruth explain mine.json --pixel 0,0 --json`",
+        "Examples: `raytruth explain whitted-1980 --pixel 80,60`, `raytruth explain mine.json --pixel 0,0 --json`, "
+        "`raytruth explain mine.json --pixel 0,0 --proof proof.json`, `raytruth explain mine.json --check proof.json`. "
+        "Exit status 1 for a proof that does not hold.",
     ),
     "faults": (
         "raytruth.faults_command:faults",
@@ -112,7 +119,8 @@ COMMANDS = {
     "report": (
         "raytruth.report_command:report",
         "Rebuild the report of a results directory from its files alone.",
-        "Examples: `raytruth report results`, `raytruth report results --junit junit.xml`",
+        "Examples: `raytruth report results`, `raytruth report results --against earlier`, "
+        "`raytruth report results --junit junit.xml`",
     ),
 }
 """Each command's function, its summary, and what its own `--help` adds."""

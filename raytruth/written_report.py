@@ -6,14 +6,21 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from raytruth.errors import UsageError
+from raytruth.output import tell
 from raytruth.reference_tracer.storage.whole_files import write_whole
-from raytruth.reports.html import ReportError, write_html_report
+from raytruth.reports.html import REPORT_FILE, ReportError, write_html_report, write_single_file
 from raytruth.reports.job_summary import job_summary
 from raytruth.reports.junit import junit_xml
 from raytruth.reports.loading import load_results
+from raytruth.reports.parts import FOLDER
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from raytruth.comparisons.records.results import Results
+
+LARGEST_ATTACHMENT = 25_000_000
+"""Bytes: what widely used mail services take at most."""
 
 
 @dataclass(frozen=True)
@@ -30,10 +37,7 @@ class ReportFiles:
         """
         if self.junit is None and self.summary is None:
             return
-        try:
-            results = load_results(directory)
-        except ReportError as error:
-            raise UsageError(str(error)) from error
+        results = loaded_results(directory)
         if self.junit is not None:
             write_whole(self.junit, junit_xml(directory, results, strict=strict))
         if self.summary is not None:
@@ -50,9 +54,32 @@ def report_files(junit: Path | None, summary: Path | None) -> ReportFiles:
     return ReportFiles(junit, summary)
 
 
-def written_report(directory: Path, *, unless_current: bool = False) -> Path:
+def written_report(directory: Path, *, unless_current: bool = False, against: Path | None = None) -> Path:
     """As `write_html_report`. Raises UsageError where the results are broken or the report cannot be written."""
     try:
-        return write_html_report(directory, unless_current=unless_current)
+        return write_html_report(directory, unless_current=unless_current, against=against)
+    except ReportError as error:
+        raise UsageError(str(error)) from error
+
+
+def written_single_file(directory: Path, *, against: Path | None = None) -> Path:
+    """As `write_single_file`, with a warning where the page is larger than what can be sent. Raises as above."""
+    try:
+        path = write_single_file(directory, against=against)
+    except ReportError as error:
+        raise UsageError(str(error)) from error
+    size = path.stat().st_size
+    if size > LARGEST_ATTACHMENT:
+        tell(
+            f"raytruth: {path} has {size / 1e6:.0f} MB: many mail services refuse it, and browsers open it slowly. "
+            f"The folder {FOLDER} with {REPORT_FILE} beside it opens at once."
+        )
+    return path
+
+
+def loaded_results(directory: Path) -> Results:
+    """The results in a directory. Raises UsageError where they are missing or broken."""
+    try:
+        return load_results(directory)
     except ReportError as error:
         raise UsageError(str(error)) from error

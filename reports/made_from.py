@@ -31,7 +31,7 @@ def made_from(directory: Path) -> str:
         except FileNotFoundError:  # a run goes on meanwhile, and has just judged the cell anew
             continue
         digest.update(f"{path.relative_to(directory)} {status.st_size} {status.st_mtime_ns}\n".encode())
-    for path in sorted([*OURS.rglob("*.py"), *(OURS / "templates").iterdir()]):
+    for path in sorted(path for path in OURS.rglob("*") if path.is_file() and path.suffix != ".pyc"):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 

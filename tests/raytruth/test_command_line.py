@@ -46,7 +46,7 @@ def test_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> N
         (["rendr"], "Did you mean"),
         (["scenes", "shwo"], "Did you mean"),
         (["scenes", "list", "--jsn"], "--json"),
-        (["explain", "single-sphere"], "--pixel requires an argument"),
+        (["explain", "single-sphere", "--pixel"], "--pixel requires an argument"),
         (["render", "single-sphere"], "--out requires an argument"),
         (["render"], "SCENE requires an argument"),
         (["scenes", "validate"], "FILES requires an argument"),

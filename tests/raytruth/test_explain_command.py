@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING
 
 import pytest
@@ -60,3 +61,47 @@ def test_a_broken_file_tells_all_its_problems(tmp_path: Path, capsys: pytest.Cap
     status, out, err = run(capsys, "explain", str(path), "--pixel", "0,0")
     assert (status, out) == (2, "")
     assert err.count("broken.json: ") >= 4
+
+
+@pytest.mark.clause("REP-14", "CMD-1")
+def test_a_proof_is_written_and_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "proof.json"
+    assert run(capsys, "explain", "glass-sphere", "--pixel", "32,32", "--proof", str(file))[0] == 0
+    status, out, err = run(capsys, "explain", "glass-sphere", "--check", str(file))
+    assert (status, out, err) == (0, "The proof of pixel (32, 32) of glass-sphere holds.\n", "")
+    assert document(capsys, "explain", "glass-sphere", "--check", str(file)) == {"holds": True, "problems": []}
+
+
+@pytest.mark.clause("REP-14", "CMD-1")
+def test_a_proof_that_does_not_hold_says_where(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "proof.json"
+    run(capsys, "explain", "single-sphere", "--pixel", "48,48", "--proof", str(file))
+    claimed = json.loads(file.read_text(encoding="utf-8"))
+    claimed["explanation"]["rays"][0]["hit"]["distance"] += 1e-9
+    file.write_text(json.dumps(claimed), encoding="utf-8")
+    status, out, _ = run(capsys, "explain", "single-sphere", "--check", str(file))
+    assert status == 1
+    assert "explanation.rays.0.hit.distance: the proof says" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        ([], "expected either --pixel X,Y, or --check FILE alone"),
+        (["--pixel", "1,1", "--check", "x"], "expected either --pixel X,Y, or --check FILE alone"),
+        (["--check", "nowhere.json"], "nowhere.json: No such file"),
+    ],
+)
+def test_a_pixel_or_a_proof_is_asked_for(
+    arguments: list[str], expected: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert expected in refusal(capsys, "explain", "single-sphere", *arguments)
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[]", "\udcff", '{"proof_version": 2}'])
+def test_a_file_that_is_no_proof_is_refused(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "proof.json"
+    file.write_bytes(text.encode("utf-8", "surrogateescape"))
+    assert "write it anew by raytruth explain --proof" in refusal(
+        capsys, "explain", "single-sphere", "--check", str(file)
+    )

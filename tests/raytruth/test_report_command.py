@@ -61,3 +61,38 @@ def test_a_file_that_cannot_be_written_is_refused_before_any_work(
     )
     assert f"{option}: expected the name of a file" in refusal(capsys, "report", str(directory), option, str(tmp_path))
     assert not (directory / "report.html").exists()
+
+
+@pytest.mark.clause("REP-12")
+def test_a_report_tells_what_changed_since_other_results(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    directory, earlier = write_sample(tmp_path / "results"), write_sample(tmp_path / "earlier")
+    assert run(capsys, "report", str(directory), "--against", str(earlier))[0] == 0
+    assert "Nothing changed." in (directory / "report.html").read_text(encoding="utf-8")
+    assert "no results directory" in refusal(capsys, "report", str(directory), "--against", str(tmp_path / "nothing"))
+
+
+@pytest.mark.clause("REP-10")
+def test_a_single_file_is_written_beside_it_with_a_warning_if_it_is_large(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    directory = write_sample(tmp_path / "results")
+    told = document(capsys, "report", str(directory), "--single-file")
+    single = directory / "report-single-file.html"
+    assert told == {"report": str(directory / "report.html"), "single_file": str(single)}
+    assert single.stat().st_size > 100_000
+    monkeypatch.setattr("raytruth.written_report.LARGEST_ATTACHMENT", 100_000)
+    status, out, err = run(capsys, "report", str(directory), "--single-file")
+    assert status == 0
+    assert f"In one file: {single}" in out
+    assert "many mail services refuse it" in err
+
+
+@pytest.mark.clause("REP-6")
+def test_on_the_terminal_no_page_is_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    directory = write_sample(tmp_path / "results")
+    status, out, _ = run(capsys, "report", str(directory), "--terminal")
+    assert status == 0
+    assert "fail         lambert-sphere closed_form/local" in out
+    assert not (directory / "report.html").exists()
+    (directory / "results.json").write_text("{")
+    assert "not valid JSON" in refusal(capsys, "report", str(directory), "--terminal")

@@ -3,11 +3,12 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 
 import pytest
 
 from raytruth.comparisons.records.image_files import write_image
-from raytruth.reports.html import ReportError, write_html_report
+from raytruth.reports.html import ReportError, write_html_report, write_single_file
 from raytruth.reports.kills import PAGE_FILE
 from tests.reports.sample_results import HOSTILE, noise, sample_document, sphere_image, write_sample
 
@@ -30,12 +31,20 @@ def changed(directory: Path, change: Change) -> Path:
     return directory
 
 
+def pages_of(directory: Path) -> dict[str, str]:
+    """All pages of the report under their addresses, the overview first."""
+    path = write_html_report(directory)
+    pages = [path, *sorted((directory / "report").rglob("*.html"))]
+    return {page.relative_to(directory).as_posix(): page.read_text(encoding="utf-8") for page in pages}
+
+
 def page_of(directory: Path) -> str:
-    return write_html_report(directory).read_text(encoding="utf-8")
+    """All pages in a row."""
+    return "\n".join(pages_of(directory).values())
 
 
-def pixel_scripts(directory: Path) -> dict[str, str]:
-    return {path.name: path.read_text(encoding="utf-8") for path in (directory / "pixels").iterdir()}
+def array_scripts(directory: Path) -> dict[str, str]:
+    return {path.name: path.read_text(encoding="utf-8") for path in (directory / "report" / "arrays").iterdir()}
 
 
 def hostile(value: Any, keep: frozenset[str]) -> Any:
@@ -47,18 +56,20 @@ def hostile(value: Any, keep: frozenset[str]) -> Any:
     return HOSTILE if isinstance(value, str) else value
 
 
-def test_the_report_is_one_page_with_a_folder_of_pixels_in_the_results_directory(directory: Path) -> None:
+@pytest.mark.clause("REP-10")
+def test_the_report_is_a_page_with_a_folder_beside_it(directory: Path) -> None:
     before = set(directory.iterdir())
     path = write_html_report(directory)
     assert path == directory / "report.html"
-    assert set(directory.iterdir()) - before == {path, directory / "pixels"}
-    with_images = [cell for cell in sample_document(directory)["cells"] if "images" in cell]
-    assert len(list((directory / "pixels").iterdir())) == len(with_images) - 1  # one lacks its render
+    assert set(directory.iterdir()) - before == {path, directory / "report"}
+    cells = sample_document(directory)["cells"]
+    assert len(list((directory / "report" / "cells").iterdir())) == len(cells)
+    assert len(list((directory / "report" / "scenes").iterdir())) == len({cell["scene"] for cell in cells})
 
 
 def test_the_report_is_a_function_of_the_results_alone(directory: Path) -> None:
-    first = page_of(directory), pixel_scripts(directory)
-    assert (page_of(directory), pixel_scripts(directory)) == first
+    first = pages_of(directory), array_scripts(directory)
+    assert (pages_of(directory), array_scripts(directory)) == first
 
 
 def test_the_report_leads_to_the_kill_matrix_where_there_is_one(directory: Path) -> None:
@@ -68,20 +79,28 @@ def test_the_report_leads_to_the_kill_matrix_where_there_is_one(directory: Path)
     assert link in write_html_report(directory, unless_current=True).read_text(encoding="utf-8")
 
 
-def test_scripts_of_cells_that_are_gone_go_too(directory: Path) -> None:
+def test_files_of_cells_that_are_gone_go_too(directory: Path) -> None:
     page_of(directory)
-    assert pixel_scripts(directory)
+    assert array_scripts(directory)
     page_of(changed(directory, lambda document: document.update(cells=[])))
-    assert not (directory / "pixels").exists()
+    assert not (directory / "report" / "arrays").exists()
+    assert list((directory / "report" / "cells").iterdir()) == []
 
 
-def test_nothing_on_the_page_is_fetched(directory: Path) -> None:
-    # A person may follow a link.
-    page = re.sub(r'<a href="https://[^"]*" rel="noreferrer">', "", page_of(directory))
-    addresses = re.findall(r"""(?:src|href)="([^"]*)"|url\\("([^"]*)"\\)""", page)
-    assert addresses
-    assert all(address.startswith(("#", "data:")) for pair in addresses for address in pair if address)
-    assert "@import" not in page
+@pytest.mark.clause("REP-10")
+def test_all_that_pages_load_lies_in_the_folder(directory: Path) -> None:
+    for name, page in pages_of(directory).items():
+        # A person may follow a link.
+        page_without_links = re.sub(r'<a href="https://[^"]*" rel="noreferrer">', "", page)
+        addresses = re.findall(r'(?:src|href)="([^"]*)"', page_without_links)
+        assert addresses
+        for address in addresses:
+            target, _, anchor = address.partition("#")
+            if target:
+                assert ((directory / name).parent / unquote(target)).resolve().is_file(), f"{address} on {name}"
+                assert (directory / name).parent.joinpath(unquote(target)).resolve().is_relative_to(directory)
+            elif anchor:
+                assert f'id="{anchor}"' in page
 
 
 @pytest.mark.clause("REP-2")
@@ -108,28 +127,75 @@ def test_no_string_of_the_results_can_become_markup(directory: Path) -> None:
     clean, page = page_of(directory), page_of(changed(directory, poison))
     assert "&lt;script&gt;alert(" in page
     assert "{{ 7*7 }}" in page  # not evaluated
-    assert page.count("<script") == clean.count("<script") == 1
+    assert page.count("<script") == clean.count("<script") - 1  # the cell without its truth has no viewer
     assert HOSTILE not in page
     assert '"&{{' not in page  # no quotation mark leaves an attribute
-    for name, text in pixel_scripts(directory).items():
+    for name, text in array_scripts(directory).items():
         assert "<" not in name
         assert "<" not in text
-        assert re.fullmatch(r'raytruthPixels\("[\w./%~-]*", \{[\w"+/=:, ]*\}\);\n', text)
+        assert re.fullmatch(r'raytruthArrays\("[\w./]*", \{[\w"+/=:,<\[\]{}\\]*\}\);\n', text)
 
 
-def test_every_cell_has_its_detail_and_each_link_its_goal(directory: Path) -> None:
-    page = page_of(directory)
-    ids = re.findall(r'\bid="([^"]*)"', page)
-    goals = re.findall(r'href="#([^"]*)"', page)
-    assert len(ids) == len(set(ids))
-    assert set(goals) <= set(ids)
-    assert sum(goal.startswith("cell/") for goal in goals) == len(sample_document(directory)["cells"])
+def test_every_cell_has_its_page_and_ids_are_there_once(directory: Path) -> None:
+    cells = sample_document(directory)["cells"]
+    pages = pages_of(directory)
+    for page in pages.values():
+        ids = re.findall(r'\bid="([^"]*)"', page)
+        assert len(ids) == len(set(ids))
+    goals = set(re.findall(r'href="(report/cells/[^"]*)"', pages["report.html"]))
+    assert len(goals) == len(cells)
 
 
 def test_a_scenes_truth_is_stored_once(directory: Path) -> None:
-    page = page_of(directory)
-    assert page.count("<image ") == 1  # the sample's scenes share one truth
-    assert page.count("<use ") > 10
+    pages = pages_of(directory)
+    shown = re.findall(r'src="([^"]*)" alt="Truth of', "".join(pages.values()))
+    assert len(shown) > 6
+    assert len({Path(address).name for address in shown}) == 1  # the sample's scenes share one truth
+
+
+@pytest.mark.clause("REP-10")
+def test_one_file_can_hold_all_of_it(directory: Path) -> None:
+    page = write_single_file(directory).read_text(encoding="utf-8")
+    addresses = re.findall(r'(?:src|href)="([^"]*)"', re.sub(r'<a href="https://[^"]*"', "", page))
+    assert all(address.startswith(("#", "data:")) for address in addresses)
+    assert page.count("<article") == len(sample_document(directory)["cells"])
+    assert page.count('<script type="application/json" id="arrays/') > 5
+    ids = re.findall(r'\bid="([^"]*)"', page)
+    assert {address[1:] for address in addresses if address.startswith("#")} <= set(ids)
+    assert len(ids) == len(set(ids))
+
+
+@pytest.mark.clause("REP-2")
+def test_names_longer_than_files_have_are_cut_and_told_apart(directory: Path) -> None:
+    long = "n" * 1_000_000
+
+    def rename(document: dict[str, Any]) -> None:
+        for scene, name in zip(document["scenes"][:2], ("a", "b"), strict=True):
+            for cell in document["cells"]:
+                if cell["scene"] == scene["name"]:
+                    cell["scene"] = long + name
+            scene["name"] = long + name
+
+    write_html_report(changed(directory, rename))
+    assert len(list((directory / "report" / "cells").iterdir())) == len(sample_document(directory)["cells"])
+
+
+@pytest.mark.clause("REP-12")
+def test_cells_that_fail_come_first_and_what_changed_is_told(directory: Path, tmp_path: Path) -> None:
+    earlier = write_sample(tmp_path / "earlier")
+
+    def fail(document: dict[str, Any]) -> None:
+        document["cells"][0]["verdict"] = "fail"
+        document["cells"].pop()
+
+    page = write_html_report(changed(directory, fail), against=earlier).read_text(encoding="utf-8")
+    assert page.index("What needs a look") < page.index("What changed") < page.index("<table")
+    told = page[page.index("What changed</h2>") : page.index("Matrix</h2>")]
+    assert "Failed now, and did not before" in told
+    assert "In the earlier results only" in told
+    assert "Another verdict" not in told
+    with pytest.raises(ReportError, match="There is no results directory"):
+        write_html_report(directory, against=tmp_path / "nowhere")
 
 
 def test_a_missing_image_is_told_in_its_cell_and_the_rest_is_built(directory: Path) -> None:
@@ -202,7 +268,7 @@ def test_optional_parts_may_all_be_missing(directory: Path) -> None:
         required = {"scene", "renderer", "integrator", "verdict", "reason", "command"}
         document["cells"] = [{key: cell[key] for key in required} for cell in document["cells"]]
 
-    assert "<img" not in page_of(changed(directory, strip))
+    assert 'class="figures"' not in page_of(changed(directory, strip))
 
 
 def test_a_run_without_scenes_and_cells_has_a_page(directory: Path) -> None:

@@ -1,0 +1,5 @@
+"use strict";
+
+// What every page has, after its own scripts.
+
+addPageTools();
