@@ -179,7 +179,7 @@ def measure_all(size: int, rounds: int) -> list[Ratio]:
 def document(ratios: Sequence[Ratio], size: int, rounds: int) -> dict[str, Any]:
     """What `--json` prints."""
     return {
-        "machine": {**machine(), **{name: version(name) for name in ("mitsuba", "numba")}},
+        "machine": {**machine(), **{name: version(name) for name in ("mitsuba", "llvmlite")}},
         "ratios": [asdict(ratio) for ratio in ratios],
         "date": datetime.now(UTC).date().isoformat(),
         "threads": THREADS,

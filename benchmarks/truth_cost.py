@@ -1,7 +1,8 @@
 """What a proven pixel costs: `python -m benchmarks.truth_cost [--json] [--rounds N]`.
 
-Three arithmetics take turns on the same pixels in one process, on one processor: balls with as many bits as a pixel
-needs, interpreted Python floats, and compiled float64. A ratio is the ball's seconds over the other's in one round.
+Four arithmetics take turns on the same scene in one process, on one processor: the compiled balls that prove most
+pixels, Arb's balls, interpreted Python floats, and compiled float64. A ratio is the seconds of the compiled balls over
+the other's in one round.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from rich.table import Table
 from benchmarks.peers import TABLE_WIDTH, machine, ranks_outside
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.certification import Certifier
+from raytruth.reference_tracer.compiled_truth import CompiledTruth
 from raytruth.reference_tracer.rendering import prepare
 from raytruth.scenes.library import open_scene
 
@@ -39,7 +41,7 @@ STRIDE = 8
 
 @dataclass(frozen=True)
 class Cost:
-    """Seconds a pixel of the truth and of another arithmetic; `low` and `high` bound the median of their ratio."""
+    """Seconds a pixel of the compiled truth and of another arithmetic; `low` and `high` bound their ratio's median."""
 
     name: str
     truth_seconds: float
@@ -52,14 +54,16 @@ class Cost:
 def measure(name: str, rounds: int) -> list[Cost]:
     """Time one scene of the library; kernels are made, and compiled, before."""
     scene = open_scene(name)
-    certify, interpret, compiled = _truth(scene), _interpreted(scene), _compiled(scene)
-    times = [(certify(), interpret(), compiled()) for _ in range(rounds + 1)][1:]
-    truth = [first for first, _, _ in times]
-    others = {
-        "interpreted float": [second for _, second, _ in times],
-        "compiled float64": [third for *_, third in times],
+    ways = {
+        "compiled balls": _truth(scene),
+        "Arb's balls": _arb(scene),
+        "interpreted float": _interpreted(scene),
+        "compiled float64": _compiled(scene),
     }
-    return [_cost(f"{name}, {other}", truth, seconds) for other, seconds in others.items()]
+    times = [[seconds() for seconds in ways.values()] for _ in range(rounds + 1)][1:]
+    truth, *others = zip(*times, strict=True)
+    names = [way for way in ways if way != "compiled balls"]
+    return [_cost(f"{name}, {other}", truth, seconds) for other, seconds in zip(names, others, strict=True)]
 
 
 def _cost(name: str, truth: Sequence[float], other: Sequence[float]) -> Cost:
@@ -81,6 +85,18 @@ def _pixels(scene: Scene) -> list[tuple[int, int]]:
 
 
 def _truth(scene: Scene) -> Callable[[], float]:
+    """Whole images, as of compiled float64."""
+    truth = CompiledTruth(scene, Certifier(scene).frame())
+
+    def seconds() -> float:
+        start = time.process_time()
+        truth.rows(0, scene.camera.height)
+        return (time.process_time() - start) / (scene.camera.width * scene.camera.height)
+
+    return seconds
+
+
+def _arb(scene: Scene) -> Callable[[], float]:
     certifier = Certifier(scene)
     return lambda: _seconds_each(certifier.pixel, _pixels(scene))
 
@@ -118,7 +134,7 @@ def _seconds_each(evaluate: Callable[[int, int], object], pixels: Sequence[tuple
 def document(costs: Sequence[Cost], rounds: int) -> dict[str, Any]:
     """What `--json` prints."""
     return {
-        "machine": {**machine(), **{name: version(name) for name in ("python-flint", "numba")}},
+        "machine": {**machine(), **{name: version(name) for name in ("python-flint", "llvmlite")}},
         "ratios": [asdict(cost) for cost in costs],
         "date": datetime.now(UTC).date().isoformat(),
         "rounds": rounds,
@@ -133,9 +149,9 @@ def print_table(costs: Sequence[Cost]) -> None:
     for cost in costs:
         table.add_row(
             cost.name,
-            f"{cost.truth_seconds * 1e6:.0f}",
+            f"{cost.truth_seconds * 1e6:.1f}",
             f"{cost.other_seconds * 1e6:.2f}",
-            f"{cost.ratio:.1f} ({cost.low:.1f} to {cost.high:.1f})",
+            f"{cost.ratio:.3g} ({cost.low:.3g} to {cost.high:.3g})",
         )
     # Not narrower where it is not shown on a terminal.
     Console(width=None if sys.stdout.isatty() else TABLE_WIDTH).print(table)

@@ -11,8 +11,9 @@ if TYPE_CHECKING:
     from raytruth.api.images import explain, render, truth
     from raytruth.api.judgement import ImageJudgement, feasible_set, judge
     from raytruth.api.scenes import load_scene, resized
-    from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+    from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.comparisons.error_models.output_model import OutputModel
+    from raytruth.comparisons.error_models.ray_offset_model import RayOffset
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
     from raytruth.comparisons.records.results import DeclaredPixels, Verdict, WorstPixel
     from raytruth.comparisons.renderers.program.declaration_file import DeclarationError
@@ -58,7 +59,7 @@ _MODULES = {
     "FeasibleSet": "raytruth.comparisons.feasible_sets.feasible_set",
     "ImageJudgement": "raytruth.api.judgement",
     "OutputModel": "raytruth.comparisons.error_models.output_model",
-    "RayOffset": "raytruth.comparisons.error_models.error_model",
+    "RayOffset": "raytruth.comparisons.error_models.ray_offset_model",
     "Scene": "raytruth.scenes.scene",
     "SceneError": "raytruth.scenes.loading",
     "Verdict": "raytruth.comparisons.records.results",

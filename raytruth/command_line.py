@@ -41,6 +41,13 @@ COMMANDS = {
         "Exit status as that of `raytruth run`. Examples: `raytruth judge mine.exr --scene whitted-1980`, "
         "`raytruth judge mine.png --scene mine.json --renderer-file mine.toml --out results`",
     ),
+    "grade": (
+        "raytruth.grade_command:grade",
+        "Grade one program by an assignment: points, and a proof of what explains the pixels that are wrong.",
+        "Exit status 0 with full marks, 1 without, 3 where raytruth itself failed, which is no grade. "
+        "Examples: `raytruth grade -- ./tracer {scene} {output}.pfm`, "
+        "`raytruth grade --assignment shadows --renderer-file tracer.toml --out grade`",
+    ),
     "scenes": ("raytruth.scenes_commands:app", "List, show, validate and export scenes.", ""),
     "renderers": (
         "raytruth.renderers_command:renderers",

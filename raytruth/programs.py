@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.comparisons.renderers.program.adapter import ProgramRenderer
-from raytruth.comparisons.renderers.program.command import missing_program
+from raytruth.comparisons.renderers.program.command import files_matching, missing_program
 from raytruth.comparisons.renderers.program.declaration_file import (
     DeclarationError,
     checked_declaration,
@@ -50,11 +50,18 @@ def programs_of(commands: Iterable[str], files: Iterable[Path]) -> dict[str, Pro
 
 
 def missing_programs(program: ProgramRenderer) -> list[str]:
-    """A sentence for each command whose program is not there."""
+    """A sentence for each command whose program is not there, and for each pattern that no file matches."""
     declared = program.declaration
     commands = {"command": declared.command, "version": declared.version}
     told = {key: missing_program(words, program.folder, declared.environment) for key, words in commands.items()}
-    return [f"{program.chosen_by}: {key}[0]: {sentence}" for key, sentence in told.items() if sentence is not None]
+    unmatched = [pattern for pattern in declared.files or () if not files_matching(pattern, program.folder)]
+    return [
+        *(f"{program.chosen_by}: {key}[0]: {sentence}" for key, sentence in told.items() if sentence is not None),
+        *(
+            f"{program.chosen_by}: files: expected a pattern of files in {program.folder}, found none for {quoted(it)}."
+            for it in unmatched
+        ),
+    ]
 
 
 def program_of_file(path: Path) -> ProgramRenderer:

@@ -21,16 +21,20 @@ from raytruth.comparisons.renderers.catalogue import (
 )
 from raytruth.comparisons.renderers.program.declaration_file import DeclarationError, checked_declaration
 from raytruth.comparisons.renderers.program.declaration_schema import json_schema
+from raytruth.comparisons.renderers.program.declared_model import formula_in_file
 from raytruth.comparisons.renderers.program.starting_file import starting_text
 from raytruth.comparisons.renderers.protocol import shown_error_model, versions_in_words, why_unavailable
 from raytruth.errors import UsageError
 from raytruth.options import AsJson  # noqa: TC001 - cyclopts reads annotations at run time
 from raytruth.output import print_json, progress, say, tell
+from raytruth.probe_command import tell_tightest_declaration
 from raytruth.programs import programs_of
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.requirements import required_features
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from raytruth.comparisons.renderers.protocol import Renderer
 
 
@@ -40,8 +44,9 @@ def renderers(
     init: Annotated[str | None, Parameter(show_default=False)] = None,
     schema: Annotated[bool, Parameter(negative="")] = False,
     formulas: Annotated[bool, Parameter(negative="")] = False,
+    probe: Annotated[Path | None, Parameter(show_default=False)] = None,
     as_json: AsJson = False,
-) -> None:
+) -> int:
     """Show who can render here, what each can do, and how to install the rest.
 
     Parameters
@@ -56,18 +61,26 @@ def renderers(
         Print the JSON Schema that such files obey, and nothing else.
     formulas
         List the formulas that a renderer can declare, with a line of code each, and nothing else.
+    probe
+        Render the quick suite with the program that this TOML file declares, and tell the tightest declaration of bits
+        and ray offset under which it passes, with the pixel that decides; nothing else.
     as_json
         Print one JSON document instead of text.
     """
     if schema:
         print_json(json_schema())
-        return
-    if formulas:
+    elif formulas:
         _print_formulas(as_json=as_json)
-        return
-    if init is not None:
+    elif init is not None:
         say(f"Wrote {_start(init)}; edit it, then: raytruth run --quick --renderer-file {init}.toml")
-        return
+    elif probe is not None:
+        return tell_tightest_declaration(probe, as_json=as_json)
+    else:
+        _show(names, renderer_file, as_json=as_json)
+    return 0
+
+
+def _show(names: Sequence[str], renderer_file: Sequence[Path], *, as_json: bool) -> None:
     for sentence in unusable_adapters():
         tell(f"raytruth: {sentence}")
     programs = programs_of((), renderer_file)
@@ -112,12 +125,15 @@ def _start(name: str) -> Path:
 
 
 def _print_formulas(*, as_json: bool) -> None:
+    """As they are stated under [formulas] in a file, with their fields of an error model in JSON."""
+    stated = [(formula, formula_in_file(formula)) for formula in FORMULAS]
     if as_json:
-        print_json({"formulas": [asdict(formula) for formula in FORMULAS]})
+        print_json({"formulas": [{**asdict(it), "in_file": dict([line]) if line else None} for it, line in stated]})
         return
-    widths = [max(len(text) for text in column) for column in zip(*((f.field, f.value) for f in FORMULAS), strict=True)]
-    for formula in FORMULAS:
-        print(f"{formula.field:{widths[0]}}  {formula.value:{widths[1]}}  {formula.code}")
+    lines = [(f'{line[0]} = "{line[1]}"', formula.code) for formula, line in stated if line]
+    width = max(len(line) for line, _ in lines)
+    for line, code in lines:
+        print(f"{line:{width}}  {code}")
 
 
 def _clauses(record: dict[str, Any]) -> dict[str, str]:

@@ -5,18 +5,17 @@ from __future__ import annotations
 import os
 import shlex
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from raytruth.comparisons.matrix.earlier_results import damage_of
 from raytruth.comparisons.matrix.plan import Plan, plan_run
 from raytruth.comparisons.matrix.quick_suite import write_quick_suite
 from raytruth.comparisons.matrix.results_directory import only_run_in, with_metrics, write_results
-from raytruth.comparisons.matrix.run import run_plan
 from raytruth.comparisons.matrix.waivers import WaiverError, apply_waivers, load_waivers
 from raytruth.comparisons.records.results import Verdict
 from raytruth.comparisons.renderers.catalogue import UnknownRendererError, select_renderers, unusable_adapters
@@ -27,11 +26,12 @@ from raytruth.output import progress, tell
 from raytruth.programs import programs_of
 from raytruth.reports.console import print_matrix
 from raytruth.reports.wording import printable
+from raytruth.run_progress import change, intention, judged, shown_as_they_come
 from raytruth.scenes.library import library_names
 from raytruth.written_report import report_files, written_report
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from raytruth.comparisons.matrix.waivers import Waiver
     from raytruth.comparisons.records.results import Cell, Results
@@ -99,8 +99,7 @@ def run(
     as_json
         Print the results as one JSON document instead of the table.
     """
-    if jobs is not None and jobs < 1:
-        raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
+    processes = _processes(jobs)
     expect_folder(out)
     files = report_files(junit, summary)
     programs = programs_of(renderer_command, renderer_file)
@@ -109,20 +108,57 @@ def run(
     opened = _opened(scenes, out, quick=quick)
     with only_run_in(out):
         _tell_damage(out)
-        with progress("Looking for the renderers"):
-            plan = plan_run(opened, list(selected.values()), out, fresh=fresh)
+        plan = _planned(opened, selected, out, processes, fresh=fresh)
+        write = partial(_written, out, opened, selected, plan, known_failures)
         try:
-            cells = _run(plan, out, jobs or os.cpu_count() or 1)
+            cells = _judged_and_measured(plan, out, processes, write)
         except KeyboardInterrupt:
             # What is finished can be shown, and the next run goes on from there.
             cells = list(plan_run(opened, list(selected.values()), out, fresh=False).settled)
-            _written(out, opened, selected, plan, cells, known_failures)
+            write(cells)
             raise
-        results, cells, unmatched = _written(out, opened, selected, plan, cells, known_failures)
+        results, cells, unmatched = write(cells)
         report = written_report(out, unless_current=True)
         files.write(out, strict=strict)
     _show(results, report, as_json)
     return _status(cells, _missing(required, plan), unmatched, strict=strict)
+
+
+def _processes(jobs: int | None) -> int:
+    """How many work side by side. Raises UsageError for none."""
+    if jobs is not None and jobs < 1:
+        raise UsageError(f"--jobs: expected 1 or more, found {jobs}.")
+    return jobs or os.cpu_count() or 1
+
+
+def _planned(
+    opened: Mapping[str, Scene], selected: Mapping[str, Renderer], out: Path, jobs: int, *, fresh: bool
+) -> Plan:
+    """What the run has to do, told before the renderers are tried, and again where that changes it."""
+    foreseen: list[Plan] = []
+
+    def announce(plan: Plan) -> None:
+        foreseen.append(plan)
+        tell(f"raytruth: {intention(plan, len(opened), len(selected), jobs)}")
+
+    with progress("Looking for the renderers"):
+        plan = plan_run(opened, list(selected.values()), out, fresh=fresh, tell=announce)
+    sentence = change(foreseen[0], plan, jobs)
+    if sentence is not None:
+        tell(f"raytruth: {sentence}")
+    return plan
+
+
+def _judged_and_measured(plan: Plan, out: Path, jobs: int, write: Callable[[Sequence[Cell]], object]) -> list[Cell]:
+    """All cells of the plan, those that are settled too; what there is is written and shown while the run goes on."""
+
+    def show(cells: Sequence[Cell]) -> None:
+        write(cells)
+        written_report(out)
+
+    cells = shown_as_they_come(plan.settled, judged(plan, out, jobs), show)
+    with progress("Measuring global differences"):
+        return with_metrics(out, cells)
 
 
 def _written(
@@ -130,8 +166,8 @@ def _written(
     opened: Mapping[str, Scene],
     selected: Mapping[str, Renderer],
     plan: Plan,
-    cells: Sequence[Cell],
     known_failures: Sequence[Waiver],
+    cells: Sequence[Cell],
 ) -> tuple[Results, list[Cell], list[str]]:
     """The results as they are written, this run's cells as they are waived, and what is told of unmatched waivers."""
     waived, unmatched = apply_waivers(known_failures, cells, plan.versions, opened.values())
@@ -193,24 +229,6 @@ def _split(option: str, names: Sequence[str]) -> list[str]:
     if names and not parts:
         raise UsageError(f"{option}: expected the name of a renderer, found none; see raytruth renderers.")
     return parts
-
-
-def _run(plan: Plan, out: Path, jobs: int) -> list[Cell]:
-    """Render, judge and measure what the plan leaves to do, saying how far it has come."""
-    total = sum(len(cells) for cells in plan.by_scene.values())
-    cells = list(plan.settled)
-    console = Console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as bar:
-        task = bar.add_task("Rendering and judging", total=total)
-        for done, cell in enumerate(run_plan(plan, out, jobs), start=1):
-            cells.append(cell)
-            bar.advance(task)
-            if not console.is_terminal:
-                line = f"[{done}/{total}] {cell.scene} {cell.renderer} {cell.integrator}: {cell.verdict}"
-                tell(line)
-    with progress("Measuring global differences"):
-        return with_metrics(out, cells)
 
 
 def _command() -> str:

@@ -53,7 +53,7 @@ def truth(
     size
         WIDTHxHEIGHT in pixels; by default each scene's own.
     jobs
-        How many processes work side by side; one a processor by default.
+        How many threads or processes work side by side; one a processor by default.
     fresh
         Evaluate every pixel again, instead of using what was kept from an earlier run.
     as_json

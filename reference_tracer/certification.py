@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from raytruth.reference_tracer.arithmetics.balls import Decisions
+    from raytruth.reference_tracer.arithmetics.kernel import Frame
     from raytruth.reference_tracer.camera_rays import CameraRays
     from raytruth.scenes.scene import Scene
 
@@ -114,6 +115,10 @@ class Certifier:
                 return CertifiedPixel(found.middle, found.radius, bits)
             bits *= 2
         return self._explored(column, row, widest)
+
+    def frame(self) -> Frame:
+        """What all rays of the camera share, in balls of the fewest bits."""
+        return self._evaluator(FEWEST_BITS).frame
 
     def _evaluator(self, bits: int, *, exactly: bool = False) -> _Evaluator:
         if (bits, exactly) not in self._evaluators:

@@ -1,4 +1,4 @@
-"""The certified image of a scene: bands of rows, rendered in processes side by side, and kept.
+"""The certified image of a scene: bands of rows, proven side by side, and kept.
 
 A band is a file in the cache, written whole or not at all, so that an image that was interrupted goes on where it
 stopped. Its folder is named by all that the image depends on: the scene, our code, and the library of balls.
@@ -10,7 +10,7 @@ import gc
 import hashlib
 import json
 import zipfile
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
 from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any
@@ -27,6 +27,7 @@ from raytruth.reference_tracer.certification import (
     Undecided,
     agree,
 )
+from raytruth.reference_tracer.compiled_truth import COMPILED_BITS, CompiledTruth
 from raytruth.reference_tracer.storage.cache import cache_folder, keep
 from raytruth.reference_tracer.storage.source_digest import source_digest
 
@@ -37,15 +38,19 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from raytruth.reference_tracer.camera_rays import CameraRays
+    from raytruth.reference_tracer.compiled_truth import EnclosedRows
     from raytruth.scenes.scene import Scene
 
 # A second or so of work, so that little is lost when a run is interrupted, and no process is left alone for long.
 PIXELS_IN_A_BAND = 2048
+# A process starts in the time that Arb's balls take for so many pixels: a second or so.
+PIXELS_WORTH_A_PROCESS = 1000
 
 TRUTH_ROOMS = (
     "scenes",
     "reference_tracer",
     "reference_tracer/arithmetics",
+    "reference_tracer/compiler",
     "reference_tracer/source",
     "reference_tracer/storage",
 )
@@ -102,8 +107,9 @@ def certified_image(
     fresh: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> CertifiedImage:
-    """The certified image of a scene at its own size, made by `jobs` processes, or by this one for 1.
+    """The certified image of a scene at its own size, made by `jobs` threads and processes, or by this one for 1.
 
+    Compiled balls prove most pixels (compiled_truth.py); what they leave undecided or wide is worked out by Arb's.
     Bands that are kept from before are used unless `fresh`. `progress` is told how many bands of how many are done.
     The radius of a decided pixel is at most 2^-52 of the image's largest value: pixels that miss that at first are
     evaluated with more bits once that value is known. Ties whose outcomes differ by no more than that decide nothing.
@@ -111,7 +117,7 @@ def certified_image(
     bands = _bands(scene, camera_rays)
     images = {} if fresh else {band: image for band in bands if (image := _read(band)) is not None}
     missing = [band for band in bands if band not in images]
-    for band, image in _side_by_side(_certified_band, [(band,) for band in missing], jobs):
+    for band, image in _certified_bands(missing, jobs):
         images[band] = image
         if progress is not None:
             progress(len(images), len(bands))
@@ -121,7 +127,8 @@ def certified_image(
         for band, image in images.items()
         if _is_wide(image, widest).any() or _ties_without_consequence(image, widest)
     ]
-    images.update(_side_by_side(_refined_band, wide, jobs))
+    left = sum(int(_is_wide(image, widest).sum()) for _, image, _ in wide)
+    images.update(_side_by_side(_refined_band, wide, _processes_for(left, jobs)))
     return _joined([(band, images[band]) for band in bands])
 
 
@@ -171,18 +178,43 @@ def _side_by_side(
             pool.shutdown(cancel_futures=True)
 
 
-def _certified_band(band: _Band) -> CertifiedImage:
+def _certified_bands(bands: Sequence[_Band], jobs: int) -> Iterator[tuple[_Band, CertifiedImage]]:
+    """The bands as they are finished: those that compiled balls prove first, then those that need Arb's."""
+    unfinished: list[Work] = []
+    for band, begun in _begun(bands, jobs):
+        image = CertifiedImage(begun.middle, begun.radius, np.full(begun.decided.shape, COMPILED_BITS), {})
+        if begun.decided.all():
+            _write(band, image)
+            yield band, image
+        else:
+            unfinished.append((band, image, ~begun.decided))
+    left = sum(int(pixels.sum()) for _, _, pixels in unfinished)
+    yield from _side_by_side(_finished_band, unfinished, _processes_for(left, jobs))
+
+
+def _processes_for(pixels: int, jobs: int) -> int:
+    """How many processes are worth starting for pixels that need Arb's balls."""
+    return min(jobs, 1 + pixels // PIXELS_WORTH_A_PROCESS)
+
+
+def _begun(bands: Sequence[_Band], jobs: int) -> Iterator[tuple[_Band, EnclosedRows]]:
+    """What compiled balls prove of the bands, in this order, made by threads."""
+    if not bands:
+        return
+    scene, camera_rays = bands[0].scene, bands[0].camera_rays
+    truth = CompiledTruth(scene, Certifier(scene, camera_rays).frame())
+    threads = ThreadPoolExecutor(jobs)
+    try:
+        yield from zip(bands, threads.map(lambda band: truth.rows(band.first, band.end), bands), strict=True)
+    finally:
+        threads.shutdown(cancel_futures=True)
+
+
+def _finished_band(band: _Band, image: CertifiedImage, left: NDArray[np.bool_]) -> CertifiedImage:
+    """With Arb's balls where pixels are left."""
     certifier = Certifier(band.scene, band.camera_rays)
-    width = band.scene.camera.width
-    image = CertifiedImage(
-        np.empty((band.end - band.first, width, 3)),
-        np.empty((band.end - band.first, width, 3)),
-        np.empty((band.end - band.first, width), dtype=np.int64),
-        {},
-    )
-    for row in range(band.first, band.end):
-        for column in range(width):
-            _put(image, column, row - band.first, certifier.pixel(column, row))
+    for row, column in np.argwhere(left).tolist():
+        _put(image, column, row, certifier.pixel(column, band.first + row))
     _write(band, image)
     return image
 

@@ -95,8 +95,7 @@ def _in_bands(prepared: PreparedScene, work: Callable[[int, int], None]) -> None
         with prepared.arithmetic.in_force():
             work(0, rows)
         return
-    work(*bands[0])  # compiles, which only one thread should do
-    list(_threads().map(lambda band: work(*band), bands[1:]))
+    list(_threads().map(lambda band: work(*band), bands))
 
 
 @functools.cache

@@ -12,6 +12,7 @@ ROOT = Path(__file__).parent.parent
 ROOMS = (
     "scenes",
     "reference_tracer/storage",
+    "reference_tracer/compiler",
     "reference_tracer/source",
     "reference_tracer/arithmetics",
     "reference_tracer",
@@ -26,6 +27,7 @@ ROOMS = (
     "comparisons/judgement",
     "comparisons/matrix",
     "comparisons/kills",
+    "comparisons/grading",
     "specification",
     "reports",
     "raytruth",

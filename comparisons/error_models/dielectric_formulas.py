@@ -1,8 +1,8 @@
 """How most tracers compute refraction and how light is split, in place of the formulas of the truth.
 
-They are equal in exact arithmetic, but lose more where indices are nearly equal and near the critical angle. The
-functions here are source of the tracer, as those of triangle_tests.py. η is n_t/n_i, as in refraction.py; the formulas
-are written in its inverse.
+They are equal in exact arithmetic, but lose more where indices are nearly equal and near the critical angle: those of
+the specification as well, for who writes them as they stand there. The functions here are source of the tracer, as
+those of triangle_tests.py. η is n_t/n_i, as in refraction.py; Heckbert's and Bec's are written in its inverse.
 """
 
 from __future__ import annotations
@@ -22,13 +22,24 @@ if TYPE_CHECKING:
 def dielectric_behaviour(error_model: ErrorModel) -> Behaviour:
     """What the renderer's formulas for dielectrics replace, nothing for the truth's own."""
     functions: dict[str, Function] = {}
-    discriminants = {"heckbert": heckbert_discriminant, "bec": bec_discriminant}
+    discriminants = {
+        "as specified": specified_discriminant,
+        "heckbert": heckbert_discriminant,
+        "bec": bec_discriminant,
+    }
     if error_model.refraction in discriminants:
         functions["snell_discriminant"] = discriminants[error_model.refraction]
+    if error_model.refraction in {"heckbert", "bec"}:
         functions["refracted_direction"] = refracted_direction_by_inverse
-    if error_model.fresnel == "cosines":
-        functions["fresnel_reflectance"] = fresnel_by_cosines
+    reflectances = {"as specified": specified_reflectance, "cosines": fresnel_by_cosines}
+    if error_model.fresnel in reflectances:
+        functions["fresnel_reflectance"] = reflectances[error_model.fresnel]
     return Behaviour(functions, name="the formulas for dielectrics")
+
+
+def specified_discriminant(cosine: Scalar, ratio: Scalar) -> Scalar:
+    """g² = η² - 1 + c² (docs/spec.md, REFR-2), from left to right."""
+    return ratio * ratio - 1.0 + cosine * cosine
 
 
 def heckbert_discriminant(cosine: Scalar, ratio: Scalar) -> Scalar:
@@ -50,6 +61,16 @@ def refracted_direction_by_inverse(
     """d/η + (c₁/η - c₂)·n, as Heckbert and Bec have it."""
     inverse = 1.0 / ratio
     return along(scale(direction, inverse), normal, inverse * cosine - g / ratio)
+
+
+def specified_reflectance(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:
+    """r_s = (c - g)/(c + g), r_p = (η²c - g)/(η²c + g) (docs/spec.md, REFR-4)."""
+    if cosine + g == 0.0:
+        return 1.0
+    scaled = ratio * ratio * cosine
+    across = (cosine - g) / (cosine + g)
+    within = (scaled - g) / (scaled + g)
+    return 0.5 * (across * across + within * within)
 
 
 def fresnel_by_cosines(cosine: Scalar, g: Scalar, ratio: Scalar) -> Scalar:  # noqa: ARG001 - the signature of the function it stands for

@@ -10,6 +10,8 @@ from raytruth.comparisons.error_models.departures import NONE, Departures
 from raytruth.comparisons.error_models.formulas import in_code
 from raytruth.comparisons.error_models.handed_cameras import FieldOfView  # noqa: TC001 - a field's type
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.rasterisers.rasterisation_model import Rasterisation  # noqa: TC001 - a field's type
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.reference_tracer.camera_rays import CENTRES, CameraRays
 from raytruth.scenes.extent import extent_of
 
@@ -22,127 +24,11 @@ TriangleTest = Literal[
 ]
 
 
-@dataclass(frozen=True)
-class RayOffset:
-    """Where secondary and shadow rays start that leave a surface at p: at p + v·(absolute + relative·max|p|).
-
-    v is the unit normal on the side that the ray goes to, or the ray's own unit direction. max|p| is the largest
-    absolute coordinate. Raises ValueError for a combination that no renderer can have.
-    """
-
-    absolute: float = 0.0
-    """A length in units of the scene."""
-    relative: float = 0.0
-    along: Literal["normal", "direction"] = "normal"
-    minimum_distance: float = 0.0
-    """Hits nearer than this to where a ray starts are ignored, a camera's ray included; in units of the scene."""
-    excludes_surface: bool = True
-    """Whether a ray cannot meet again the point that it leaves: by the identity of the primitive, or since the offset
-    is far above all rounding. If not, the primitive is tested as all others are: of a sphere both roots."""
-    is_bound: bool = False
-    """Whether only some rays are moved, those that would miss the triangle that they leave, and by no more than that.
-    So each coordinate of a ray's start may be off by anything up to that, to either side (bounded_offsets.py)."""
-    relative_minimum_distance: float = 0.0
-    """Added to the least distance: so many times the largest absolute coordinate of where the ray starts."""
-    scale: Literal["point", "scene"] = "point"
-    """Of what the largest absolute coordinate is taken that `relative` and `relative_minimum_distance` are multiplied
-    with: of the point that a ray leaves, or of all points of the scene's shapes, spheres as a whole."""
-    error_bound: float = 0.0
-    """In roundoffs: a start is moved along the normal by anything up to so many of the numbers that its point is
-    computed from (start_bounds.py), as by who derives the offset from a bound of the point's error."""
-    in_units: bool = False
-    """Whether coordinates are moved by units in the last place of float32, as Wächter and Binder do (2019)."""
-
-    def __post_init__(self) -> None:
-        numbers = (self.absolute, self.relative, self.minimum_distance)
-        if min(*numbers, self.relative_minimum_distance, self.error_bound) < 0.0:
-            raise ValueError("a ray offset is not negative")
-        others = self.needs_policies or self.error_bound > 0.0
-        if self.is_bound and others:
-            raise ValueError("a bound on an offset is declared without any of the other policies")
-        if self.in_units and (self.absolute, self.relative, self.error_bound, self.along) != (0.0, 0.0, 0.0, "normal"):
-            raise ValueError("coordinates that are moved by units in the last place are moved by nothing else")
-        if self.error_bound > 0.0 and self.along == "direction":
-            raise ValueError("a bound of a point's error moves starts along the normal")
-        if self.is_bound and not (self.moves_rays and self.excludes_surface):
-            raise ValueError(
-                "a bound on an offset is above 0, and the surface is excluded, on whichever side a ray starts"
-            )
-
-    @property
-    def moves_rays(self) -> bool:
-        """Whether rays start beside the surface."""
-        return max(self.absolute, self.relative, self.error_bound) > 0.0 or self.in_units
-
-    @property
-    def ignores_near_hits(self) -> bool:
-        """Whether there is a least distance, the one shortcut that camera rays take."""
-        return self.minimum_distance > 0.0 or self.relative_minimum_distance > 0.0
-
-    @property
-    def needs_policies(self) -> bool:
-        """Whether ray_policies.py tells it, and not ray_offsets.py."""
-        return (
-            self.relative_minimum_distance > 0.0
-            or self.scale == "scene"
-            or self.error_bound > 0.0
-            or self.in_units
-            or (self.excludes_surface and (self.minimum_distance > 0.0 or self.along == "direction"))
-        )
-
-    def in_words(self) -> str:
-        """The offset as a clause for people, as in `raytruth renderers`."""
-        start = f"{self._length()} along the {self._vector()}" if self.moves_rays else "on the surface"
-        start = f"up to {start}, to either side" if self.is_bound else start
-        least = _length_in_words(self.minimum_distance, self.relative_minimum_distance, self._largest("o"))
-        nearest = f", hits nearer than {least} are ignored" if self.ignores_near_hits else ""
-        left = "cannot be hit again there" if self.excludes_surface else "is tested as all others are"
-        return f"{start}{nearest}; the surface {left}"
-
-    def _length(self) -> str:
-        if self.in_units:
-            return "256 units of float32 in the last place, or 2^-16 near 0, for each coordinate"
-        length = _length_in_words(self.absolute, self.relative, self._largest("p"))
-        bound = f"up to {self.error_bound:.3g} roundoffs of the point's terms" if self.error_bound > 0.0 else ""
-        return " and ".join(filter(None, [length, bound]))
-
-    def _largest(self, point: str) -> str:
-        return f"max|{point}|" if self.scale == "point" else "the scene's largest coordinate"
-
-    def _vector(self) -> str:
-        return "normal" if self.along == "normal" else "ray"
-
-
 AIMS = {
     "light": "from their start to the light",
     "parallel": "in the direction from the surface to the light",
     "either": "to the light, or in the direction from the surface to it",
 }
-
-
-def _length_in_words(absolute: float, relative: float, largest: str) -> str:
-    if absolute == relative and absolute > 0.0:
-        return f"{absolute:.3g}·(1 + {largest})"
-    terms = [f"{absolute:.3g}"] if absolute > 0.0 else []
-    return " + ".join([*terms, *([f"{relative:.3g}·{largest}"] if relative > 0.0 else [])])
-
-
-@dataclass(frozen=True)
-class Rasterisation:
-    """How triangles are drawn with a z-buffer; what that may do to a pixel is derived in rasterisation.py."""
-
-    subpixel_bits: int
-    """Corners are snapped to 2^-subpixel_bits of a pixel to tell what they cover."""
-    depth_bits: int
-    """Depths are kept to 2^-depth_bits of the way from the near to the far plane (view_volume.py)."""
-    light_bits: int
-    """As `precision_bits` of the error model, of the lighting equation: slack for another order of it included."""
-
-    def in_words(self) -> str:
-        """The rasterisation as a clause for people, as in `raytruth renderers`."""
-        grid = f"with corners snapped to 2^-{self.subpixel_bits} of a pixel"
-        buffer = f"in a z-buffer of {self.depth_bits} bits between planes tight around what is seen"
-        return f"triangles {grid}, {buffer}; an operation of their light errs by at most 2^-{self.light_bits}"
 
 
 @dataclass(frozen=True)
@@ -172,6 +58,8 @@ class ErrorModel:
     triangle_test: TriangleTest = "watertight"
     """Which formula decides whether a ray meets a triangle: the truth's own, one of triangle_tests.py, which are
     Embree's, or one of triangle_formulas.py."""
+    least_determinant: float = 0.0
+    """Of Möller and Trumbore's test of 1997: triangles with a determinant nearer to 0 than this are missed."""
     triangle_points: Literal["along the ray", "barycentric"] = "along the ray"
     """How the point is found where a ray meets a triangle: from its distance, or from its corners with the weights of
     the triangle test (hit_points.py)."""
@@ -211,9 +99,9 @@ class ErrorModel:
     """Of rays that leave a surface: a mirror's and a refracted one as they come out of their formulas, and a shadow ray
     as long as the way to the light, with least distances as lengths; all made unit vectors once more; or as the first,
     but with least distances compared with t in units of the direction's length."""
-    fresnel: Literal["accurate", "cosines"] = "accurate"
-    """Which formula says how a dielectric splits light: the truth's own, or that of dielectric_formulas.py."""
-    refraction: Literal["accurate", "heckbert", "bec"] = "accurate"
+    fresnel: Literal["accurate", "as specified", "cosines"] = "accurate"
+    """Which formula says how a dielectric splits light: the truth's own, or one of dielectric_formulas.py."""
+    refraction: Literal["accurate", "as specified", "heckbert", "bec"] = "accurate"
     """The same of the refracted direction, and of whether there is one."""
     smallest: float = 0.0
     """A colour may be off by so much whatever it is: what is smaller may have been flushed to 0 on the way."""
@@ -223,6 +111,10 @@ class ErrorModel:
             raise ValueError("an image radius is not negative")
         if self.triangle_points == "barycentric" and self.triangle_test in {"watertight", "plane and inside"}:
             raise ValueError("points are interpolated with the weights of one of the tests of triangle_tests.py")
+        if self.least_determinant < 0.0 or (
+            self.least_determinant > 0.0 and self.triangle_test != "moeller-trumbore of 1997"
+        ):
+            raise ValueError("a least determinant is not negative, and one of Möller and Trumbore's test of 1997")
         if self.sphere_points == "put back" and self.triangle_points != "barycentric":
             raise ValueError("points are put back on spheres by who interpolates those on triangles")
         if self.sphere_test.startswith("from the foot") and (
@@ -287,15 +179,8 @@ class ErrorModel:
         shortened = f"{self.shadow_shortening:.3g} of the distance before the light"
         around = f"within {self.image_radius:.3g} pixels of a pixel's centre, in x and in y"
         near = f"{self.shadow_tolerance:.3g} from the surface or the light may throw a shadow or none"
-        offsets = {
-            f"{kind} rays start": "as all others" if offset is None else offset.in_words()
-            for kind, offset in (
-                ("shadow", self.shadow_offset),
-                ("reflected", self.reflected_offset),
-                ("refracted", self.refracted_offset),
-            )
-        }
         grows = f"where rays go farther than {self.largest_extent:.4g}, least distances are so many times longer"
+        missed = f"with a determinant under {self.least_determinant:.3g} are missed"
         far = f"what is farther than {self.farthest:.4g} in a scene that has them"
         return {
             "summary": self.description,
@@ -305,12 +190,13 @@ class ErrorModel:
             "fields of view are": f"{self.field_of_view}, as they are told to it",
             "indices of refraction": f"stored with {self.index_bits or self.precision_bits} bits",
             "triangles": in_code("triangle_test", self.triangle_test),
+            "triangles seen edge on": missed if self.least_determinant > 0.0 else "are met as all others",
             "points on triangles": in_code("triangle_points", self.triangle_points),
             "spheres": in_code("sphere_test", self.sphere_test),
             "points on spheres": in_code("sphere_points", self.sphere_points),
             "drawing": self.rasterisation.in_words() if self.rasterisation else "none: rays are traced",
             "rays that leave a surface start": self.ray_offset.in_words(),
-            **offsets,
+            **self._offsets_in_words(),
             "shadow rays go": AIMS[self.shadow_aim],
             "directions": in_code("directions", self.directions),
             "Fresnel's formulas": in_code("fresnel", self.fresnel),
@@ -323,4 +209,16 @@ class ErrorModel:
             "output": self.output.in_words(),
             "random numbers": self.random_choices or "none",
             "departures from the specification": self.departures.in_words(),
+        }
+
+    def _offsets_in_words(self) -> dict[str, str]:
+        """Of the kinds of rays that may have an offset of their own."""
+        of_kinds = {
+            "shadow": self.shadow_offset,
+            "reflected": self.reflected_offset,
+            "refracted": self.refracted_offset,
+        }
+        return {
+            f"{kind} rays start": "as all others" if offset is None else offset.in_words()
+            for kind, offset in of_kinds.items()
         }

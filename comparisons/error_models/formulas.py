@@ -33,10 +33,12 @@ FORMULAS = (
     Formula("sphere_points", "along the ray", "n = (p - C)/r"),
     Formula("sphere_points", "normalised", "n = normalize(p - C)"),
     Formula("fresnel", "cosines", "rs = (n1*c1 - n2*c2)/(n1*c1 + n2*c2), rp = (n2*c1 - n1*c2)/(n2*c1 + n1*c2)"),
-    Formula("fresnel", "accurate", "g = sqrt(eta*eta - 1 + c1*c1); rs = (eta*eta - 1)/((g+c1)*(g+c1)), eta = n2/n1"),
+    Formula("fresnel", "as specified", "rs = (c1 - g)/(c1 + g), rp = (eta*eta*c1 - g)/(eta*eta*c1 + g), eta = n2/n1"),
+    Formula("fresnel", "accurate", "rs = (eta - 1)*(eta + 1)/((g+c1)*(g+c1)); q = (c1*g - s2)/(c1*g + s2), rp = q*rs"),
     Formula("refraction", "heckbert", "c2 = sqrt(1 - e*e*(1 - c1*c1)); t = e*d + (e*c1 - c2)*n, e = n1/n2"),
     Formula("refraction", "bec", "w = e*c1; t = e*d + (w - sqrt(1 + (w-e)*(w+e)))*n, e = n1/n2"),
-    Formula("refraction", "accurate", "t = (d + (c1 - g)*n)/eta, g and eta as of fresnel"),
+    Formula("refraction", "as specified", "g = sqrt(eta*eta - 1 + c1*c1); t = (d + (c1 - g)*n)/eta, eta = n2/n1"),
+    Formula("refraction", "accurate", "the same, with g = sqrt((eta - 1)*(eta + 1) + c1*c1)"),
     Formula(
         "directions", "normalised", "r = normalize(reflect(d, n)); l = normalize(light - p), hit if t < |light - p|"
     ),

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.error_models.helpers import under_name
-from raytruth.comparisons.error_models.ray_policies import start_of
+from raytruth.comparisons.error_models.policy_starts import start_of
 from raytruth.reference_tracer.source.features import DIRECTIONAL_LIGHTS, POINT_LIGHTS
 from raytruth.reference_tracer.source.illumination import attenuation, diffuse
 from raytruth.reference_tracer.source.scene_data import (

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from raytruth.comparisons.error_models.departures import NONE
-from raytruth.comparisons.error_models.error_model import RayOffset
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.scenes.extent import largest_coordinate
 from raytruth.scenes.planes import has_planes
 from raytruth.scenes.shapes import Plane, Sphere
@@ -30,6 +30,7 @@ def without_shortcuts(error_model: ErrorModel) -> ErrorModel:
         shadow_offset=None,
         reflected_offset=None,
         refracted_offset=None,
+        least_determinant=0.0,
         shadow_aim="light",
         shadow_shortening=0.0,
         shadow_tolerance=0.0,
@@ -44,7 +45,7 @@ def without_departures(error_model: ErrorModel) -> ErrorModel:
 
 def has_shortcuts(error_model: ErrorModel) -> bool:
     """Whether it declares any: a ray offset, a least distance, shadow rays that end early or overlook what is near, a
-    farthest distance.
+    farthest distance, a least determinant.
 
     A surface that is tested as all others are, when a ray leaves it, is one, too.
     """
@@ -67,6 +68,8 @@ def shortcuts_in_words(error_model: ErrorModel, scene: Scene) -> str:
     ]
     if error_model.shadow_shortening > 0.0:
         told.append(f"its shadow rays end {error_model.shadow_shortening:.2g} of the distance before the light")
+    if error_model.least_determinant > 0.0:
+        told.append(f"it misses triangles with a determinant under {error_model.least_determinant:.2g}")
     if isfinite(error_model.farthest) and has_planes(scene):
         told.append(f"it may miss what is farther than {error_model.farthest:.2g}, and planes are infinite")
     if error_model.departures != NONE:

@@ -13,14 +13,20 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING
 
 from raytruth.comparisons.error_models.helpers import largest_magnitude, under_name
+from raytruth.reference_tracer.arithmetics.balls import stored_number
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
 from raytruth.reference_tracer.source.bounding_volume import certainly_less
 from raytruth.reference_tracer.source.triangle import triangle_distance
 from raytruth.reference_tracer.source.vector import along, cross, dot, subtract
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
+
+least_determinant: Scalar = 0.0
+"""What the determinant of Möller and Trumbore's test is compared with, their EPSILON."""
 
 
 def triangle_formula_behaviour(error_model: ErrorModel) -> Behaviour:
@@ -32,7 +38,30 @@ def triangle_formula_behaviour(error_model: ErrorModel) -> Behaviour:
         "plane and inside": plane_and_inside_root,
     }
     formula = formulas.get(error_model.triangle_test, root_by_test)
-    return Behaviour(helpers=(beside_triangle, under_name("triangle_root", formula)), name="the formula for triangles")
+    least = error_model.least_determinant
+    return Behaviour(
+        helpers=(
+            beside_triangle,
+            under_name("triangle_root", formula),
+            under_name("is_edge_on", is_small if least > 0.0 else is_zero),
+        ),
+        constants={"least_determinant": stored_number(least, error_model.precision_bits)},
+        name="the formula for triangles",
+    )
+
+
+def is_zero(determinant: Scalar) -> bool:
+    """Whether a ray is parallel to a triangle, for who asks that and no more."""
+    return determinant == 0.0
+
+
+def is_small(determinant: Scalar) -> bool:
+    """The same for who calls it parallel where the determinant is small, whatever the triangle's size."""
+    return abs(determinant) < least_determinant
+
+
+is_edge_on: Callable[[Scalar], bool] = is_zero
+"""The one of these that is declared."""
 
 
 def root_by_test(origin: Vector, direction: Vector, a: Vector, b: Vector, c: Vector) -> Scalar:
@@ -66,7 +95,7 @@ def moeller_trumbore_root(origin: Vector, direction: Vector, a: Vector, b: Vecto
     """Möller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997: their steps in their order.
 
     Weights are compared before they are divided, where balls still know their signs; a quotient with the determinant is
-    rounded up to three times in the program, and so is the determinant here.
+    rounded up to three times in the program, and so is the determinant here. Their EPSILON is `least_determinant`.
     """
     first_edge, second_edge = subtract(b, a), subtract(c, a)
     p = cross(direction, second_edge)
@@ -75,7 +104,7 @@ def moeller_trumbore_root(origin: Vector, direction: Vector, a: Vector, b: Vecto
     u = dot(to_origin, p)
     q = cross(to_origin, first_edge)
     v = dot(direction, q)
-    if beside_triangle(u, v, determinant - u - v) or determinant == 0.0:
+    if beside_triangle(u, v, determinant - u - v) or is_edge_on(determinant):
         return inf
     side = 1.0 if determinant > 0.0 else -1.0
     if side * u < 0.0 or side * v < 0.0 or side * (u + v) > side * determinant * 1.0 * 1.0 * 1.0:

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.faults import other_formulas, other_searches, other_starts
 from raytruth.comparisons.faults.fault import STUDENT, Array, Finish, Subject, subjects_in
 from raytruth.comparisons.records.srgb import srgb_decoded, srgb_encoded

@@ -36,6 +36,9 @@ FEASIBLE_SET_ROOMS = (
 )
 """What a feasible set depends on: the tracer that is evaluated, and what an error model does to it."""
 
+DAMAGED = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error)
+"""What reading a file of the cache may raise."""
+
 
 def kept_feasible_set(scene: Scene, error_model: ErrorModel, *, with_colors: bool = True) -> FeasibleSet:
     """The `feasible_set` from the cache, or made now if the scene, the error model or our code has changed since.
@@ -43,7 +46,7 @@ def kept_feasible_set(scene: Scene, error_model: ErrorModel, *, with_colors: boo
     There is one place in the cache for each scene's name and error model, so that it does not grow with each change.
     """
     key = feasible_set_key(scene)
-    path = cache_folder() / "feasible" / f"{_digest(scene.name, repr(error_model), str(with_colors))}.npz"
+    path = _file(scene, error_model, with_colors)
     kept = _read(path, key)
     if kept is None:
         truth = certified_image(scene, error_model.camera_rays) if with_colors else None
@@ -52,10 +55,23 @@ def kept_feasible_set(scene: Scene, error_model: ErrorModel, *, with_colors: boo
     return kept
 
 
+def has_feasible_set(scene: Scene, error_model: ErrorModel, *, with_colors: bool = True) -> bool:
+    """Whether `kept_feasible_set` finds it in the cache, as far as can be told without reading all of it."""
+    try:
+        with _file(scene, error_model, with_colors).open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            return str(arrays["key"]) == feasible_set_key(scene)
+    except DAMAGED:
+        return False
+
+
 def feasible_set_key(scene: Scene) -> str:
     """A digest of all that the feasible sets of a scene depend on but the error model, which is in the file's name."""
     code = source_digest(*FEASIBLE_SET_ROOMS)
     return _digest(scene.model_dump_json(), code, flint.__version__, flint.__FLINT_VERSION__, np.__version__)
+
+
+def _file(scene: Scene, error_model: ErrorModel, with_colors: bool) -> Path:
+    return cache_folder() / "feasible" / f"{_digest(scene.name, repr(error_model), str(with_colors))}.npz"
 
 
 def _digest(*parts: str) -> str:
@@ -75,5 +91,5 @@ def _read(path: Path, key: str) -> FeasibleSet | None:
             if str(arrays["key"]) != key:
                 return None
             return FeasibleSet(**{field.name: arrays[field.name] for field in fields(FeasibleSet)})
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
+    except DAMAGED:
         return None

@@ -17,16 +17,27 @@ from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.arithmetics.balls import MARGIN_BITS, Decisions, ball_arithmetic, rounded_ball_arithmetic
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL, merged
 from raytruth.reference_tracer.arithmetics.linked_arithmetic import linked_arithmetic
-from raytruth.reference_tracer.arithmetics.linked_balls import condensed, enclose, enclosure, work_done
+from raytruth.reference_tracer.arithmetics.linked_balls import (
+    condensed,
+    enclose,
+    enclosure,
+    with_own_symbol,
+    work_done,
+)
 from raytruth.reference_tracer.rendering import prepare
 from raytruth.reference_tracer.source.scene_data import MATERIAL_INDEX, MATERIAL_OUTSIDE_INDEX, rows_of
 from raytruth.reference_tracer.source.traversal import NOTHING
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from raytruth.comparisons.error_models.error_model import ErrorModel
     from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
     from raytruth.reference_tracer.rendering import PreparedScene
+    from raytruth.reference_tracer.source.scene_data import SceneData
     from raytruth.scenes.scene import Scene
+
+    NearestHit = Callable[[SceneData, Any, Any, int], tuple[Any, int]]
 
 Box = tuple[Any, Any, Any]
 """A ball for each channel."""
@@ -108,6 +119,7 @@ class LinkedRays:
             self.prepared = prepare(scene, arithmetic, in_balls.with_numbers(arithmetic.functions["ball"]))
             store_indices(self.prepared, error_model.index_bits)
             kernel = self.prepared.kernel
+            kernel.nearest_hit = _with_own_error(kernel.nearest_hit)
             decide_shadows_once(kernel, self.decisions)
             frame = kernel.camera_frame(self.prepared.data)
             numbers = iter(condensed([number for vector in frame for number in vector]))
@@ -172,6 +184,20 @@ def first_hit(prepared: PreparedScene, origin: Any, direction: Any) -> tuple[int
         return NOTHING, ()
     point = kernel.hit_point(data, origin, direction, distance, primitive)
     return primitive, (distance, *point, *kernel.surface_normal(data, primitive, point))
+
+
+def _with_own_error(nearest_hit: NearestHit) -> NearestHit:
+    """The same, with a symbol for what rounding may add to the distance.
+
+    It moves the point that is hit along the ray. So the point's coordinates share it, and a point that is found at a
+    grazing angle is known to be much nearer to its surface than any of its coordinates is known.
+    """
+
+    def with_own_error(scene: SceneData, origin: Any, direction: Any, left: int) -> tuple[Any, int]:
+        distance, primitive = nearest_hit(scene, origin, direction, left)
+        return distance if primitive == NOTHING else with_own_symbol(distance), primitive
+
+    return with_own_error
 
 
 def _condensed_ray(origin: Any, direction: Any) -> tuple[Any, Any]:

@@ -102,13 +102,13 @@ def largest_error(image: NDArray[np.float32], truth: NDArray[np.float64], feasib
     """The largest difference of a channel over the judged pixels: from the truth, or from the nearest due outcome."""
     value = np.asarray(image, dtype=np.float64)
     from_truth = np.abs(value - truth)
-    middles = np.where(feasible.due[..., np.newaxis], 0.5 * (feasible.low + feasible.high), np.nan)
-    with np.errstate(invalid="ignore"):  # of two infinities
+    with np.errstate(invalid="ignore"):  # of two infinities: the middle of a box without bounds is not a number
+        middles = np.where(feasible.due[..., np.newaxis], 0.5 * (feasible.low + feasible.high), np.nan)
         from_outcomes = np.abs(value[:, :, np.newaxis] - middles)
     place = np.argmin(_filled(from_outcomes.max(axis=3)), axis=2)
     nearest = np.take_along_axis(from_outcomes, place[:, :, np.newaxis, np.newaxis], axis=2)[:, :, 0]
     ambiguous = (feasible.outcomes > 1)[:, :, np.newaxis]
-    errors = np.where(ambiguous, np.minimum(nearest, from_truth), from_truth)
+    errors = np.where(ambiguous, np.fmin(nearest, from_truth), from_truth)
     return float(errors[feasible.outcomes > 0].max(initial=0.0))
 
 

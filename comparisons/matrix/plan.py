@@ -15,7 +15,7 @@ from raytruth.comparisons.records.results import Cell, Verdict
 from raytruth.comparisons.renderers.protocol import error_model_of, why_unavailable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
 
     from raytruth.comparisons.error_models.error_model import ErrorModel
@@ -42,20 +42,36 @@ class Plan:
     versions: Mapping[str, str | None]
     """The version of each renderer by its name; None where it cannot run here."""
 
+    @property
+    def cells(self) -> list[PlannedCell]:
+        """All cells that are to be rendered."""
+        return [cell for cells in self.by_scene.values() for cell in cells]
 
-def plan_run(scenes: Mapping[str, Scene], renderers: Sequence[Renderer], directory: Path, *, fresh: bool) -> Plan:
+
+def plan_run(
+    scenes: Mapping[str, Scene],
+    renderers: Sequence[Renderer],
+    directory: Path,
+    *,
+    fresh: bool,
+    tell: Callable[[Plan], None] = lambda _: None,
+) -> Plan:
     """Settle what is unavailable, incomparable, or already in the directory; the rest is to be rendered.
 
     Scenes are given by what names each on the command line. A cell is taken from the directory if its key
-    (cell_key.py) is the same, unless `fresh`. Where nothing is left to render, what renderers told of their versions
-    earlier will do (kept_versions.py); else each is tried.
+    (cell_key.py) is the same, unless `fresh`. A renderer that has nothing left to render need not be tried: what it
+    told of its version earlier will do (kept_versions.py). Trials take seconds, so that the plan is foreseen before
+    them, and given to `tell`: with the versions told earlier or, where none was, with one that can be judged.
     """
-    kept = {} if fresh else {it.name: version for it in renderers if (version := kept_version(it)) is not None}
-    versions = kept | _tried([renderer for renderer in renderers if renderer.name not in kept])
-    plan = _plan(scenes, renderers, versions, directory, fresh=fresh)
-    if kept and plan.by_scene:
-        plan = _plan(scenes, renderers, _tried(renderers), directory, fresh=fresh)
-    return plan
+    kept = {it.name: version for it in renderers if (version := kept_version(it)) is not None}
+    foreseen = {it.name: kept.get(it.name) or it.error_models[-1][0] for it in renderers}
+    plan = _plan(scenes, renderers, foreseen, directory, fresh=fresh)
+    tell(plan)
+    at_work = {cell.place.renderer.name for cell in plan.cells}
+    needless: set[str] = set() if fresh else kept.keys() - at_work
+    tried = _tried([renderer for renderer in renderers if renderer.name not in needless])
+    versions: dict[str, str | None] = {**kept, **tried}
+    return plan if versions == foreseen else _plan(scenes, renderers, versions, directory, fresh=fresh)
 
 
 def _tried(renderers: Sequence[Renderer]) -> dict[str, str | None]:

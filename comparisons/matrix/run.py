@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections import deque
+import time
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from dataclasses import dataclass
 from multiprocessing import get_context
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from raytruth.comparisons.judgement.judged_truth import judged_truth
 from raytruth.comparisons.judgement.kept_expectation import kept_expectation
 from raytruth.comparisons.matrix.cell import TRUTH_FILE, run_cell, settled_cell
+from raytruth.comparisons.matrix.estimate import kept_pace
+from raytruth.comparisons.matrix.tasks import TaskQueue, plan_seconds, tasks_of
 from raytruth.comparisons.processes.interruption import at_work, interruption_held_back, start_worker
 from raytruth.comparisons.records.image_files import write_image
 from raytruth.comparisons.records.results import Cell, Verdict
@@ -22,69 +24,79 @@ if TYPE_CHECKING:
     from concurrent.futures import Future
     from pathlib import Path
 
-    from raytruth.comparisons.error_models.error_model import ErrorModel
+    from raytruth.comparisons.matrix.estimate import Pace
     from raytruth.comparisons.matrix.plan import Plan, PlannedCell
+    from raytruth.comparisons.matrix.tasks import Task
     from raytruth.scenes.scene import Scene
 
 
-@dataclass(frozen=True, eq=False)
-class _Task:
-    """Work of one process for cells of one scene: the truth that they need, or, of one error model, the cells."""
+@dataclass
+class Forecast:
+    """How much of a run is left, which it brings up to date."""
 
-    makes: Literal["truth", "cells"]
-    cells: tuple[PlannedCell, ...]
+    pace: Pace
+    jobs: int
+    """How many processes work side by side."""
+    left: float
+    """Seconds of one process for all that is not done, as estimate.py has it."""
+
+    def done(self, task: Task, seconds: float) -> None:
+        """Take a task from what is left that took one process so long."""
+        self.left -= task.seconds
+        self.pace.note(task.seconds, seconds)
+
+    @property
+    def seconds_left(self) -> float:
+        """About how long the run still takes."""
+        return self.pace.seconds(max(0.0, self.left)) / self.jobs
 
 
-def run_plan(plan: Plan, directory: Path, jobs: int) -> Iterator[Cell]:
+def forecast_of(plan: Plan, jobs: int) -> Forecast:
+    """Of a run of the plan that has not begun."""
+    return Forecast(kept_pace(), jobs, plan_seconds(plan))
+
+
+def run_plan(plan: Plan, directory: Path, jobs: int, forecast: Forecast | None = None) -> Iterator[Cell]:
     """The cells of the plan as they are finished, from `jobs` processes side by side.
 
     First the truth of a scene is made, then all cells of one error model are one task. When the caller stops early,
     what runs is finished and the rest is dropped.
     """
-    waiting = deque(_Task("truth", cells) for cells in sorted(plan.by_scene.values(), key=_effort, reverse=True))
-    running: dict[Future[list[Cell]], _Task] = {}
+    forecast = forecast or forecast_of(plan, jobs)
+    queue = TaskQueue(tasks_of(plan))
+    running: dict[Future[tuple[list[Cell], float]], tuple[Task, bool]] = {}
     # Fresh interpreters: threads of a forked one may hold locks for ever.
     with ProcessPoolExecutor(jobs, get_context("spawn"), start_worker) as pool:
-        while waiting or running:
-            while waiting and len(running) < jobs:
-                task = waiting.popleft()
+        while queue or running:
+            while queue and len(running) < jobs:
+                shortest = not any(is_short for _, is_short in running.values())
+                task = queue.next_task(shortest=shortest)
                 with interruption_held_back():
-                    running[pool.submit(_do, task, directory)] = task
+                    running[pool.submit(_do, task.makes, task.cells, directory)] = task, shortest
             for done in wait(running, return_when=FIRST_COMPLETED).done:
-                task = running.pop(done)
+                task, shortest = running.pop(done)
                 failure = done.exception()
                 if failure is not None:
+                    forecast.left -= task.all_seconds
                     reason = f"raytruth itself failed on this scene: {type(failure).__name__}: {failure}"
                     yield from (settled_cell(lost.place, Verdict.ERROR, reason) for lost in task.cells)
-                elif task.makes == "cells":
-                    yield from done.result()
                 else:
-                    # Before the next scene, so that little is lost when the run is killed.
-                    waiting.extendleft(_Task("cells", group) for group in reversed(_by_error_model(task.cells)))
+                    cells, seconds = done.result()
+                    forecast.done(task, seconds)
+                    queue.done(task, shortest=shortest)
+                    yield from cells
 
 
-def _do(task: _Task, directory: Path) -> list[Cell]:
+def _do(makes: str, cells: Sequence[PlannedCell], directory: Path) -> tuple[list[Cell], float]:
+    """The cells that a task makes, and how many seconds it took."""
+    start = time.perf_counter()
+    done: list[Cell] = []
     with at_work():
-        if task.makes == "cells":
-            return run_cells(task.cells, directory)
-        make_truth(task.cells[0].place.scene, directory)
-        return []
-
-
-def _effort(cells: Sequence[PlannedCell]) -> int:
-    """An estimate of how a scene's work compares with others', so that no long one is left for the end."""
-    scene = cells[0].place.scene
-    # Each bounce is another ray for each pixel of each feasible set, and the truth is as much work again.
-    pixels = scene.camera.width * scene.camera.height
-    return pixels * (1 + scene.max_depth) * (1 + len(_by_error_model(cells)))
-
-
-def _by_error_model(cells: Sequence[PlannedCell]) -> list[tuple[PlannedCell, ...]]:
-    """The cells of a scene that share a feasible set."""
-    groups: dict[ErrorModel, list[PlannedCell]] = {}
-    for cell in cells:
-        groups.setdefault(cell.error_model, []).append(cell)
-    return [tuple(group) for group in groups.values()]
+        if makes == "cells":
+            done = run_cells(cells, directory)
+        else:
+            make_truth(cells[0].place.scene, directory)
+    return done, time.perf_counter() - start
 
 
 def make_truth(scene: Scene, directory: Path) -> None:

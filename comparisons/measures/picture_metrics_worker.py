@@ -9,17 +9,15 @@ from __future__ import annotations
 import faulthandler
 import json
 import sys
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import flip_evaluator
 import numpy as np
+import skimage.color
 import skimage.metrics
 
-with warnings.catch_warnings():
-    warnings.simplefilter("ignore")  # at its import, colour tells whoever lacks its optional plotting library
-    import colour
+from raytruth.comparisons.records.srgb import srgb_encoded
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,7 +26,10 @@ if TYPE_CHECKING:
 
     Picture = NDArray[np.float64]
 
-structural_similarity: Callable[..., Any] = skimage.metrics.structural_similarity  # has no types of its own
+# These have no types of their own.
+structural_similarity: Callable[..., Any] = skimage.metrics.structural_similarity
+rgb_to_lab: Callable[..., Any] = skimage.color.rgb2lab
+delta_e_2000: Callable[..., Any] = skimage.color.deltaE_ciede2000
 
 # FLIP needs 2.4 µs a pixel here; a hundred times that, and a minute for a machine that is busy, is a hang.
 SECONDS_A_PIXEL = 2.4e-4
@@ -42,13 +43,12 @@ def main(numbers: list[str]) -> None:
     """Measure the pairs of these numbers in the current folder."""
     with Path("measured.jsonl").open("a", encoding="utf-8") as file:
         for number in numbers:
-            render, truth = (displayable(f"{number}-{which}.npy") for which in ("render", "truth"))
-            pictures = srgb(render), srgb(truth)
-            look = {"ssim": ssim(*pictures), "delta_e_2000": largest_delta_e(render, truth)}
+            render, truth = (srgb_encoded(displayable(f"{number}-{which}.npy")) for which in ("render", "truth"))
+            look = {"ssim": ssim(render, truth), "delta_e_2000": largest_delta_e(render, truth)}
             print(json.dumps({"pair": int(number)} | look), file=file, flush=True)
             # A thread without Python ends the process even while FLIP's own code hangs.
             faulthandler.dump_traceback_later(SECONDS_TO_SPARE + SECONDS_A_PIXEL * render[..., 0].size, exit=True)
-            print(json.dumps({"pair": int(number), "flip": flip(*pictures)}), file=file, flush=True)
+            print(json.dumps({"pair": int(number), "flip": flip(render, truth)}), file=file, flush=True)
             faulthandler.cancel_dump_traceback_later()
 
 
@@ -56,11 +56,6 @@ def displayable(file: str) -> Picture:
     """Linear values in [0, 1]: what is brighter than white is shown as white."""
     linear: Picture = np.load(file).astype(np.float64)
     return np.asarray(linear.clip(0.0, 1.0))
-
-
-def srgb(linear: Picture) -> Picture:
-    """The values of an sRGB picture (IEC 61966-2-1)."""
-    return np.asarray(colour.models.eotf_inverse_sRGB(linear), dtype=np.float64)
 
 
 def ssim(render: Picture, truth: Picture) -> float | None:
@@ -80,9 +75,8 @@ def ssim(render: Picture, truth: Picture) -> float | None:
 
 
 def largest_delta_e(render: Picture, truth: Picture) -> float:
-    """The largest CIE ΔE2000 of a pixel, from linear sRGB values in [0, 1] under D65."""
-    render_lab, truth_lab = (colour.XYZ_to_Lab(colour.RGB_to_XYZ(linear, "sRGB")) for linear in (render, truth))
-    return float(np.max(colour.delta_E(render_lab, truth_lab, method="CIE 2000")))
+    """The largest CIE ΔE2000 of a pixel of sRGB pictures, under D65."""
+    return float(np.max(delta_e_2000(rgb_to_lab(truth), rgb_to_lab(render))))
 
 
 def flip(render: Picture, truth: Picture) -> float:

@@ -12,7 +12,7 @@ from raytruth.reference_tracer.rendering import first_hits, prepare, primary_ray
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from raytruth.comparisons.error_models.error_model import RayOffset
+    from raytruth.comparisons.error_models.ray_offset_model import RayOffset
     from raytruth.scenes.scene import Scene
 
     Array = NDArray[np.float64]
@@ -67,10 +67,12 @@ def _points_a_side(scene: Scene) -> int:
 def _over_neighbours(points: Array, choose: np.ufunc) -> Array:
     """The least or the largest value of each point and its neighbours, along one side and then along the other."""
     for axis in (0, 1):
-        end = points.shape[axis]
-        before = np.take(points, np.maximum(np.arange(end) - 1, 0), axis)
-        after = np.take(points, np.minimum(np.arange(end) + 1, end - 1), axis)
-        points = choose(choose(before, after), points)
+        # Into one copy and by views: images of this size are memory traffic and little else.
+        chosen = points.copy()
+        along, here = (np.moveaxis(image, axis, 0) for image in (points, chosen))
+        choose(here[1:], along[:-1], out=here[1:])
+        choose(here[:-1], along[1:], out=here[:-1])
+        points = chosen
     return points
 
 

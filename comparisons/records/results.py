@@ -216,7 +216,8 @@ class RendererRecord(Record):
     integrators: dict[str, str]
     """Light-path class of each integrator, in Heckbert's notation."""
     family: str | None = None
-    """Renderers of one family share code and are one opinion; None: shares the truth's own source, and is none."""
+    """Renderers of one family share code and are one opinion. None: no independent reference, since it shares the
+    truth's own source, or is a user's program under test."""
 
 
 class Results(Record):

@@ -26,9 +26,13 @@ _FAMILIES = {"mitsuba-llvm": "mitsuba", "embree-robust": "embree", "raytruth": N
 
 
 def family_of(renderer: Renderer) -> str | None:
-    """The project whose opinion a renderer is, which counts once; None for the tracer that the truth comes from."""
+    """The project whose opinion a renderer is, which counts once.
+
+    None for the tracer that the truth comes from, and for a user's program that is no reference: it is tested.
+    """
     if isinstance(renderer, ProgramRenderer):
-        return renderer.declaration.family or renderer.name
+        declared = renderer.declaration
+        return (declared.family or renderer.name) if declared.reference else None
     return _FAMILIES.get(renderer.name, renderer.name)
 
 

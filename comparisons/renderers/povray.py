@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import OpenImageIO
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.processes.isolation import run_isolated
 from raytruth.comparisons.records.renderings import RendererError, Rendering
 from raytruth.comparisons.renderers.protocol import Integrator

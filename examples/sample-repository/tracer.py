@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A small ray tracer: spheres and triangles that are diffuse, glow or mirror, with hard shadows.
+"""A small ray tracer: spheres, triangles and planes that are diffuse, glow or mirror, with hard shadows.
 
 It reads a scene file of raytruth and writes a PFM picture: tracer.py SCENE OUTPUT
 """
@@ -90,23 +90,42 @@ class Triangle:
         return unit(cross(*self.edges))
 
 
+class Plane:
+    """An infinite plane with its material."""
+
+    def __init__(self, point, normal, material):
+        """Keep what it is made of."""
+        self.point, self.facing, self.material = point, unit(normal), material
+
+    def distance(self, origin, direction, is_left):
+        """As that of a sphere."""
+        height, approach = dot(minus(self.point, origin), self.facing), dot(direction, self.facing)
+        return height / approach if not is_left and height * approach > 0 else math.inf
+
+    def normal(self, _):
+        """The unit normal as the scene states it."""
+        return self.facing
+
+
 class Tracer:
     """A scene that is ready to be rendered."""
 
     def __init__(self, scene):
         """Take the scene as its file has it."""
         self.scene = scene
-        spheres, triangles = [], []
+        spheres, triangles, planes = [], [], []
         for shape in scene["objects"]:
             material = scene["materials"][shape["material"]]
             if shape["shape"] == "sphere":
                 spheres.append(Sphere(shape["center"], shape["radius"], material))
             elif shape["shape"] == "triangle":
                 triangles.append(Triangle(shape["vertices"], material))
+            elif shape["shape"] == "plane":
+                planes.append(Plane(shape["point"], shape["normal"], material))
             else:
                 corners = shape["vertices"]
                 triangles += [Triangle([corners[i] for i in face], material) for face in shape["faces"]]
-        self.primitives = spheres + triangles
+        self.primitives = spheres + triangles + planes
 
     def is_hidden(self, point, direction, farthest, left):
         """Whether anything is met before `farthest`, in lengths of the direction."""

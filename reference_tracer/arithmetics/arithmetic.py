@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from raytruth.reference_tracer.arithmetics.behaviour import IDEAL
-from raytruth.reference_tracer.arithmetics.compilation import compiled_module, compiled_text
+from raytruth.reference_tracer.arithmetics.compilation import image_entry_points, kernel_program
 from raytruth.reference_tracer.arithmetics.instantiation import COMPILED_ENTRY_POINTS, ENTRY_POINTS, kernel_source
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 
@@ -43,12 +43,19 @@ class Arithmetic:
     process, floats have their own."""
     guarded_divisions: bool = False
     """A division by zero calls the function `over_zero`, for numbers that raise an error there."""
+    operations: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
+    """In compiled code, what operators do to numbers that are NamedTuples of floats: functions, plain ones with types,
+    by the operators' names in Python's module `operator`."""
 
     def numbers(self, values: NDArray[np.float64]) -> Any:
-        """One-dimensional values as numbers of this type: an array for compiled code, else a list, which is quicker."""
-        if self.compiled:
-            return np.ascontiguousarray(values, dtype=type(self.number(0.0)))
-        return [self.number(value) for value in values.tolist()]
+        """One-dimensional values as numbers of this type: an array for compiled code, else a list, which is quicker.
+
+        Numbers that are tuples are the rows of an array.
+        """
+        if self.compiled and not self._parts:
+            return np.ascontiguousarray(values, dtype=self._dtype)
+        numbers = [self.number(value) for value in values.tolist()]
+        return np.array(numbers, dtype=self._dtype).reshape(len(numbers), *self._parts) if self.compiled else numbers
 
     def integers(self, values: NDArray[np.int64]) -> Any:
         """One-dimensional values as integers for kernels: an array for compiled code, else a list, which is quicker."""
@@ -56,7 +63,16 @@ class Arithmetic:
 
     def image(self, *shape: int) -> NDArray[Any]:
         """An array of zeros of this shape, which holds results of this number type."""
-        return np.zeros(shape, dtype=type(self.number(0.0)) if self.compiled else object)
+        return np.zeros((*shape, *self._parts), dtype=self._dtype) if self.compiled else np.zeros(shape, dtype=object)
+
+    @property
+    def _dtype(self) -> Any:
+        return np.asarray(self.number(0.0)).dtype
+
+    @property
+    def _parts(self) -> tuple[int, ...]:
+        """Of how many floats a number is in arrays; empty for one that is no tuple."""
+        return np.shape(self.number(0.0))
 
 
 KERNEL_FILE = "<kernel"
@@ -96,7 +112,9 @@ INTERPRETED_FLOAT32 = Arithmetic(
 
 
 class Namespace:
-    """A kernel that is not compiled: its functions as attributes."""
+    """A kernel: its functions as attributes, in the dictionary where they look for one another, so that setting an
+    attribute replaces a function for all.
+    """
 
     def __init__(self, names: dict[str, Any]) -> None:
         self.__dict__ = names
@@ -106,7 +124,8 @@ def make_kernel(arithmetic: Arithmetic, features: Collection[str], behaviour: Be
     """The tracer for one number type, with these features and no others, and with this behaviour.
 
     Raises what `kernel_source` raises; ValueError also for a constant with the name of one of the arithmetic's
-    functions; TypeError for a list of numbers in a kernel that is compiled.
+    functions; TypeError for a list of numbers in a kernel that is compiled, and NotCompilableError for a function in it
+    that the compiler does not know.
     """
     taken = behaviour.constants.keys() & arithmetic.functions.keys()
     if taken:
@@ -117,14 +136,14 @@ def make_kernel(arithmetic: Arithmetic, features: Collection[str], behaviour: Be
         # A behaviour may replace what has a plain form, too.
         replace(behaviour, functions={**forms, **behaviour.functions}),
         entry_points=COMPILED_ENTRY_POINTS if arithmetic.compiled else ENTRY_POINTS,
-        decided_comparisons=arithmetic.decided_comparisons,
+        decided_comparisons=arithmetic.decided_comparisons and not arithmetic.compiled,
         rounded_operations=arithmetic.rounded_operations,
         guarded_divisions=arithmetic.guarded_divisions,
     )
     if arithmetic.compiled:
-        number_type = np.dtype(type(arithmetic.number(0.0))).name
         numbers = {**literals, **{name: float(value) for name, value in behaviour.constants.items()}}
-        return cast("Kernel", compiled_module(compiled_text(source, numbers, number_type)))
+        program = kernel_program(source, numbers, arithmetic, image_entry_points(arithmetic))
+        return cast("Kernel", Namespace(program.compiled()))
     names: dict[str, Any] = {"float": arithmetic.number}
     with arithmetic.in_force():
         names.update({name: arithmetic.number(value) for name, value in literals.items()})

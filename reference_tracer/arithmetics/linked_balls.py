@@ -187,27 +187,38 @@ def difference(a: LinkedBall, b: LinkedBall) -> Any:
 
 
 def condensed(numbers: Sequence[LinkedBall]) -> list[LinkedBall]:
-    """New numbers that hold the same values together: linear in symbols, plus a box for the rest of each."""
+    """New numbers that hold the same values together: linear in new symbols, plus a box for the rest of each."""
     renewed: dict[LinkedBall, LinkedBall] = {}
-    results = []
-    for number in numbers:
-        holds = enclosure(number)
-        symbols, error = number.sweep or Sweep([], number.error)
-        box = abs(error) + number.center.rad()
-        links: list[Link] = []
-        for symbol, slope in symbols:
-            if symbol not in renewed:
-                renewed[symbol] = new_symbol(number)
-            links.append((renewed[symbol], slope.mid()))
-            box = box + slope.rad()
-        if box.is_finite() and number.center.is_finite():
-            center = number.center.mid()
-            links.append((new_symbol(number), box.upper()))
-        else:
-            center = holds.mid()
-            links = [(new_symbol(number), holds.rad())]
-        results.append(_made(number, center, holds, tuple(links)))
-    return results
+    return [_linear(number, renewed) for number in numbers]
+
+
+def with_own_symbol(number: LinkedBall) -> LinkedBall:
+    """A number that holds the same values: linear in the symbols that it depends on, plus one of its own for the rest.
+
+    What is computed from it in several places shares that one.
+    """
+    enclosure(number)
+    return _linear(number, {symbol: symbol for symbol, _ in number.sweep.symbols} if number.sweep else {})
+
+
+def _linear(number: LinkedBall, renewed: dict[LinkedBall, LinkedBall]) -> LinkedBall:
+    """The number as linear in symbols and a new one for the rest; `renewed` says which to take for those it had."""
+    holds = enclosure(number)
+    symbols, error = number.sweep or Sweep([], number.error)
+    box = abs(error) + number.center.rad()
+    links: list[Link] = []
+    for symbol, slope in symbols:
+        if symbol not in renewed:
+            renewed[symbol] = new_symbol(number)
+        links.append((renewed[symbol], slope.mid()))
+        box = box + slope.rad()
+    if box.is_finite() and number.center.is_finite():
+        center = number.center.mid()
+        links.append((new_symbol(number), box.upper()))
+    else:
+        center = holds.mid()
+        links = [(new_symbol(number), holds.rad())]
+    return _made(number, center, holds, tuple(links))
 
 
 def new_symbol(like: LinkedBall) -> LinkedBall:

@@ -10,7 +10,7 @@ from benchmarks import truth_cost
 pytestmark = pytest.mark.clause("BEN-1")
 
 
-def test_the_document_has_each_scene_beside_both_arithmetics(
+def test_the_document_has_each_scene_beside_the_other_arithmetics(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(truth_cost, "SCENES", ("ambient-sphere",))
@@ -19,6 +19,7 @@ def test_the_document_has_each_scene_beside_both_arithmetics(
     told = json.loads(capsys.readouterr().out)
     assert list(told)[:2] == ["machine", "ratios"]
     assert [ratio["name"] for ratio in told["ratios"]] == [
+        "ambient-sphere, Arb's balls",
         "ambient-sphere, interpreted float",
         "ambient-sphere, compiled float64",
     ]

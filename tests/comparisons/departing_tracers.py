@@ -8,7 +8,8 @@ import numpy as np
 
 from raytruth.comparisons.error_models.behaviours import behaviour_of
 from raytruth.comparisons.error_models.departures import Departures
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from raytruth.comparisons.judgement.exact_test import judge_image
 from raytruth.comparisons.judgement.judged_truth import judged_truth

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import subprocess
-import tomllib
 from functools import cache
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import OpenImageIO
@@ -18,15 +15,21 @@ import pytest
 from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from raytruth.comparisons.judgement.exact_test import judge_image
+from raytruth.comparisons.judgement.pixel_verdict import MOST_UNJUDGED
+from raytruth.comparisons.renderers.program.declaration_file import load_declaration
+from raytruth.comparisons.renderers.program.declared_model import error_model_of_declaration
 from raytruth.reference_tracer.certified_image import certified_image
 from raytruth.scenes.exporters.json_scene import export_json
 from raytruth.scenes.features import Feature
 from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.loading import load_scene
 from raytruth.scenes.requirements import required_features
+from tests.meta.example_tracers import LANGUAGES, ROOT, built, copies, needs
 from tests.reference_tracer.small_scenes import library_scene
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from numpy.typing import NDArray
 
     from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet
@@ -36,33 +39,9 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.clause("PRJ-8")
 
-ROOT = Path(__file__).parents[2]
-TRACERS = ROOT / "examples" / "tracers"
-TOOLS = {"cpp": "g++", "python": "python3", "javascript": "node", "java": "javac", "go": "go", "rust": "rustc"}
+__all__ = ["copies"]  # a fixture, which tests ask for by its name
+
 FLOAT64_BITS = 53
-# Set where every reference must be there (.ci/run). Of toolchains that means these, which anything here needs, too.
-REQUIRED = {"cpp", "python"} if os.environ.get("RAYTRUTH_REQUIRE_ALL") else set()
-
-
-def absent(language: str) -> pytest.MarkDecorator:
-    missing = shutil.which(TOOLS[language]) is None
-    return pytest.mark.skipif(missing and language not in REQUIRED, reason=f"{TOOLS[language]} is not installed")
-
-
-LANGUAGES = [pytest.param(language, marks=absent(language)) for language in TOOLS]
-
-
-@pytest.fixture(scope="module")
-def copies(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with a copy of all tracers, each of which is built when it is first needed."""
-    return Path(shutil.copytree(TRACERS, tmp_path_factory.mktemp("copies") / "tracers"))
-
-
-@cache
-def built(copies: Path, language: str) -> dict[str, Any]:
-    """What the tracer declares, once it is built."""
-    subprocess.run(["make", "-C", str(copies), language], check=True, capture_output=True)
-    return tomllib.loads((copies / language / "tracer.toml").read_text(encoding="utf-8"))
 
 
 def render(copies: Path, language: str, scene_file: Path) -> NDArray[np.float32]:
@@ -71,6 +50,10 @@ def render(copies: Path, language: str, scene_file: Path) -> NDArray[np.float32]
     words = {"{scene}": str(scene_file), "{output}": str(output)}
     command = [words.get(word, word) for word in built(copies, language)["command"]]
     subprocess.run(command, cwd=copies / language, check=True, capture_output=True)
+    return read_pfm(output)
+
+
+def read_pfm(output: Path) -> NDArray[np.float32]:
     hints = OpenImageIO.ImageSpec()
     hints.attribute("pnm:pfmflip", 1)  # a PFM begins with its lowest row
     return np.asarray(OpenImageIO.ImageBuf(str(output), 0, 0, hints).get_pixels("float"))
@@ -116,6 +99,25 @@ def test_each_tracer_is_right_on_scenes_that_need_every_feature(copies: Path, la
         judgement = judged(copies, language, scene, export_json(scene, tmp_path))
         assert judgement.failing == 0, (scene.name, judgement.worst)
         assert judgement.unjudged == 0, scene.name
+
+
+@needs("cpp")
+@pytest.mark.parametrize("name", ["tracer-float32", "tracer-float32-fast", "tracer-float32-epsilon"])
+@pytest.mark.parametrize("scene_name", ["glass-sphere", "bubble-in-glass", "classical-glass"])
+def test_what_is_written_in_float32_is_judged_on_glass_and_right(
+    copies: Path, name: str, scene_name: str, tmp_path: Path
+) -> None:
+    built(copies, "cpp")
+    declaration = load_declaration(copies / "cpp" / f"{name}.toml")
+    scene = library_scene(scene_name)
+    scene_file, output = export_json(scene, tmp_path), tmp_path / "output.pfm"
+    subprocess.run([copies / "cpp" / name, scene_file, output], check=True)
+    truth = certified_image(scene)
+    feasible = feasible_set(scene, error_model_of_declaration(declaration), truth=truth)
+    judgement, _ = judge_image(read_pfm(output), truth.middle, feasible)
+    assert judgement.failing == 0, judgement.worst
+    # Where less is judged, the cell is incomparable, and tests nothing.
+    assert judgement.unjudged <= MOST_UNJUDGED * judgement.pixels
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

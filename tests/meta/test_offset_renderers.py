@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.helpers import HELPERS
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.ray_offsets import offset_behaviour
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from raytruth.comparisons.judgement.exact_test import distances_in_tolerances

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
 import sys
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -59,7 +60,7 @@ ENDINGS = {
     "mistake": "failed",
     "full-disk": "failed",
 }
-COMMAND = f"mine={sys.executable} -c pass {{scene}} {{output}}"
+COMMAND = f"mine={shlex.quote(sys.executable)} -c pass {{scene}} {{output}}"
 
 
 @pytest.fixture

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 
 import pytest
 
@@ -91,7 +92,11 @@ def test_an_unknown_renderer_is_one_sentence(capsys: pytest.CaptureFixture[str])
 
 def test_the_formulas_that_can_be_declared_are_listed_with_a_line_of_code(capsys: pytest.CaptureFixture[str]) -> None:
     told = document(capsys, "renderers", "--formulas")["formulas"]
-    assert {"field": "sphere_points", "value": "along the ray", "code": "n = (p - C)/r"} in told
+    normals = {"field": "sphere_points", "value": "along the ray", "code": "n = (p - C)/r"}
+    assert {**normals, "in_file": {"sphere_normals": "divided"}} in told
     lines = run(capsys, "renderers", "--formulas")[1].splitlines()
-    assert len(lines) == len(told)
-    assert any(line.split() == ["triangle_points", "along", "the", "ray", "p", "=", "o", "+", "t*d"] for line in lines)
+    assert len(lines) == len([formula for formula in told if formula["in_file"]])
+    # Each line begins as it may stand in a file.
+    stated = [tomllib.loads(line.partition("  ")[0]) for line in lines]
+    assert stated == [formula["in_file"] for formula in told if formula["in_file"]]
+    assert any(line.startswith('triangle = "moeller-trumbore"') and "p = cross(d, e2)" in line for line in lines)

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from raytruth import run_command
+from raytruth.comparisons.matrix import estimate, waivers
 from raytruth.comparisons.matrix import run as matrix_run
-from raytruth.comparisons.matrix import waivers
 from raytruth.comparisons.records.renderings import RendererError
 from raytruth.comparisons.records.results import RESULTS_FILE, Cell, Results, Verdict
 from raytruth.comparisons.renderers import catalogue
@@ -35,6 +35,8 @@ WIDTH, HEIGHT = 16, 12
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The working directory, with a tiny scene in it; scenes are rendered in this process."""
     monkeypatch.setattr(matrix_run, "ProcessPoolExecutor", lambda jobs, *_: ThreadPoolExecutor(jobs))
+    # How long tiny scenes take tells nothing of others.
+    monkeypatch.setattr(estimate, "cache_folder", lambda: tmp_path / "cache")
     monkeypatch.chdir(tmp_path)
     scene_file(tmp_path, width=WIDTH, height=HEIGHT)
     return tmp_path

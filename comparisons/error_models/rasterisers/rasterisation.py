@@ -34,7 +34,7 @@ from raytruth.reference_tracer.source.triangle import triangle_distance
 from raytruth.reference_tracer.source.vector import add, cross, dot, scale, subtract
 
 if TYPE_CHECKING:
-    from raytruth.comparisons.error_models.error_model import Rasterisation
+    from raytruth.comparisons.error_models.rasterisers.rasterisation_model import Rasterisation
     from raytruth.reference_tracer.source.numbers import Scalar, Vector
     from raytruth.reference_tracer.source.scene_data import SceneData
     from raytruth.scenes.scene import Scene

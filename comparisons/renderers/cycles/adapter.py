@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.processes.isolation import run_isolated
 from raytruth.comparisons.processes.worker_results import read_arrays
 from raytruth.comparisons.records.renderings import Rays, RendererError, Rendering

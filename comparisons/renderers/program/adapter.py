@@ -17,7 +17,7 @@ import numpy as np
 from raytruth.comparisons.processes.isolation import LOG_FILE, end_of_log, run_isolated
 from raytruth.comparisons.records.image_files import ImageError
 from raytruth.comparisons.records.renderings import FirstHits, RendererError, Rendering
-from raytruth.comparisons.renderers.program.command import filled_command, named_files
+from raytruth.comparisons.renderers.program.command import counted_files, filled_command
 from raytruth.comparisons.renderers.program.declared_model import error_model_of_declaration, output_model_of
 from raytruth.comparisons.renderers.program.first_hit_files import FIRST_HITS_FILE, read_first_hits
 from raytruth.comparisons.renderers.program.output_images import read_output
@@ -75,9 +75,10 @@ class ProgramRenderer:
 
     @cached_property
     def digest(self) -> str:
-        """Of the declaration, and of the files that its command names: it changes when the program is built anew."""
-        digest = hashlib.sha256(self.declaration.model_dump_json().encode())
-        for path in named_files(self.declaration.command, self.folder, self.declaration.environment):
+        """Of the declaration, and of the program's files: it changes when the program is built anew."""
+        declared = self.declaration
+        digest = hashlib.sha256(declared.model_dump_json().encode())
+        for path in counted_files(declared.command, self.folder, declared.environment, declared.files):
             digest.update(f"\n{path}\n".encode(errors="surrogateescape"))
             try:
                 with path.open("rb") as file:

@@ -11,6 +11,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+# Of files and folders beside a script. A tracer has dozens; where there are more, as in somebody's home, most is not of
+# the program, and to look through all of it would take longer than to render.
+MOST_LOOKED_AT = 10_000
+
 
 def filled_command(
     command: Sequence[str], folder: Path, environment: Mapping[str, str], values: Mapping[str, object]
@@ -36,6 +40,28 @@ def missing_program(command: Sequence[str], folder: Path, environment: Mapping[s
     return f"expected a program, found none at {folder / word}; build it first."
 
 
+def counted_files(
+    command: Sequence[str], folder: Path, environment: Mapping[str, str], patterns: Sequence[str] | None
+) -> list[Path]:
+    """The files of which a change makes another program: those that the words name, and those that they may read.
+
+    Of folders that they name these are the files in them. Beyond these it is what the patterns match, from `folder`;
+    without patterns (None) all of a script's kind that lie beside it in `folder` or below, which it may import.
+    """
+    found = named_files(command, folder, environment)
+    if patterns is not None:
+        matched = [path for pattern in patterns for path in files_matching(pattern, folder)]
+    else:
+        scripts = [path for path in found if path.suffix and path.is_relative_to(folder.resolve())]
+        matched = [path for script in scripts for path in _of_its_kind(script)]
+    return list(dict.fromkeys([*found, *matched]))
+
+
+def files_matching(pattern: str, folder: Path) -> list[Path]:
+    """The files that a pattern matches, as a shell's with `**` for folders of any depth."""
+    return sorted(path for path in folder.resolve().glob(pattern) if path.is_file())
+
+
 def named_files(command: Sequence[str], folder: Path, environment: Mapping[str, str]) -> list[Path]:
     """The files that the words name, and those that lie in folders that they name: what a rebuilt program changes."""
     found: list[Path] = []
@@ -47,6 +73,19 @@ def named_files(command: Sequence[str], folder: Path, environment: Mapping[str, 
         elif path.is_absolute() and path.is_dir():
             found += sorted(file for file in path.iterdir() if file.is_file())
     return found
+
+
+def _of_its_kind(script: Path) -> list[Path]:
+    """All files with its ending in its folder and below, hidden folders left out; none where too much lies there."""
+    found: list[Path] = []
+    looked_at = 0
+    for folder, folders, files in os.walk(script.parent):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        looked_at += len(folders) + len(files)
+        if looked_at > MOST_LOOKED_AT:
+            return []
+        found += [Path(folder) / name for name in files if name.endswith(script.suffix)]
+    return sorted(path for path in found if path.is_file())
 
 
 def _program(word: str, folder: Path, environment: Mapping[str, str]) -> str | None:

@@ -55,6 +55,14 @@ def _with_known_placeholders(word: str) -> str:
     return word
 
 
+def _a_pattern(pattern: str) -> str:
+    parts = pattern.split("/")
+    if not pattern or pattern.startswith("/") or any("**" in part and part != "**" for part in parts):
+        told = "as src/**/*.py: from the folder of this file, with ** for folders of any depth"
+        raise ValueError(f"expected a pattern {told}, found {quoted(pattern)}")
+    return pattern
+
+
 def _a_feature(name: str) -> str:
     known = [feature.lower() for feature in Feature]
     if name not in known:
@@ -65,6 +73,7 @@ def _a_feature(name: str) -> str:
 Text = Annotated[str, AfterValidator(_without_nul)]
 Word = Annotated[Text, AfterValidator(_with_known_placeholders)]
 Variable = Annotated[str, AfterValidator(_usable_variable)]
+Pattern = Annotated[Text, AfterValidator(_a_pattern)]
 FeatureName = Annotated[
     str, AfterValidator(_a_feature), Field(json_schema_extra={"enum": sorted(map(str.lower, Feature))})
 ]
@@ -191,7 +200,7 @@ class Rays(Part):
 
 
 class Formulas(Part):
-    """By which formulas the program finds hits and splits light; `raytruth renderers --schema` names them all."""
+    """By which formulas the program finds hits and splits light; `raytruth renderers --formulas` shows their code."""
 
     sphere: Literal["quadratic", "stable quadratic", "geometric", "accurate"] = Field(
         "accurate", description="Where a ray meets a sphere."
@@ -199,17 +208,26 @@ class Formulas(Part):
     triangle: Literal["moeller-trumbore", "cramer", "plane and inside", "watertight", "pluecker"] = Field(
         "watertight", description="Whether a ray meets a triangle."
     )
+    least_determinant: NonNegative = Field(
+        0.0,
+        description="Triangles are missed whose determinant in Möller and Trumbore's test is nearer to 0 than this: "
+        "their EPSILON, 0.000001 in the paper.",
+    )
     triangle_points: Literal["along the ray", "barycentric"] = Field(
         "along the ray", description="How the point on a triangle is found: from the distance, or from the corners."
     )
     sphere_normals: Literal["divided", "normalised"] = Field(
         "divided", description="(p - c)/r, or p - c made a unit vector."
     )
-    fresnel: Literal["accurate", "cosines"] = Field(
-        "accurate", description="How Fresnel's equations are evaluated: as in the specification, or from two cosines."
+    fresnel: Literal["accurate", "as specified", "cosines"] = Field(
+        "accurate",
+        description="How Fresnel's equations are evaluated: without any cancellation, as REFR-4 of the specification "
+        "is written, or from two cosines.",
     )
-    refraction: Literal["accurate", "heckbert", "bec"] = Field(
-        "accurate", description="How the refracted direction is found."
+    refraction: Literal["accurate", "as specified", "heckbert", "bec"] = Field(
+        "accurate",
+        description="How the refracted direction is found, and whether there is one: without any cancellation, as "
+        "REFR-2 and REFR-3 are written, or by Heckbert's or Bec's formula.",
     )
     directions: Literal["normalised", "unnormalised"] | None = Field(
         None,
@@ -230,6 +248,12 @@ class Declaration(Part):
         "second picture to write, of what is seen first; {width}, {height}, {depth}, {samples} and {seed} are numbers; "
         "{folder} is the folder of this file.",
     )
+    files: tuple[Pattern, ...] | None = Field(
+        None,
+        description="Patterns of files that the program consists of besides those that its command names, as "
+        "'src/**/*.py' or '*.glsl', from the folder of this file: when one changes, the program is judged anew. "
+        "By default all files with the ending of a script that the command names, in its folder and below.",
+    )
     version: tuple[Word, ...] = Field((), description="A command whose first line of output is the version.")
     reads: Literal["json", "obj", "mitsuba", "povray", "gltf", "pbrt"] = Field(
         "json", description="What a scene is written as for the program, as by `raytruth scenes export`."
@@ -248,8 +272,13 @@ class Declaration(Part):
         None, description="Whether colours above 1 are written as 1, as whole numbers always are."
     )
     environment: dict[Variable, Text] = Field({}, description="Variables of the environment that it runs in.")
+    reference: Truth = Field(
+        False,
+        description="Whether it is an independent reference, so that scenes on which it passes count as confirmed by "
+        "it. A program under test confirms nothing.",
+    )
     family: Annotated[str, AfterValidator(_usable_name)] | None = Field(
-        None, description="Programs of one family share code, and are one opinion; by default the name."
+        None, description="Of references: those of one family share code, and are one opinion; by default the name."
     )
     limits: Limits = Limits()
     scenes: Scenes = Scenes()

@@ -38,7 +38,7 @@ class DeclarationError(Exception):
 
 def load_declaration(path: Path) -> Declaration:
     """The declaration in a TOML file. Raises DeclarationError, which holds a sentence for every mistake of the file."""
-    return checked_declaration(_parsed(path), str(path))
+    return checked_declaration(parsed_toml(path), str(path))
 
 
 def checked_declaration(data: dict[str, Any], source: str) -> Declaration:
@@ -88,14 +88,15 @@ def _without(data: dict[str, Any], wrong: Iterable[tuple[int | str, ...]]) -> di
     return kept
 
 
-def _parsed(path: Path) -> dict[str, Any]:
+def parsed_toml(path: Path, start: str = "raytruth renderers --init NAME") -> dict[str, Any]:
+    """What a small TOML file of a user holds; `start` is the command that writes one. Raises DeclarationError."""
     try:
         if path.exists() and not path.is_file():
             raise DeclarationError([f"{path}: expected a TOML file, found a folder or a device."])
         with path.open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
     except FileNotFoundError as error:
-        told = f"{path}: expected a TOML file, found no file of this name; raytruth renderers --init NAME writes one."
+        told = f"{path}: expected a TOML file, found no file of this name; {start} writes one."
         raise DeclarationError([told]) from error
     except (OSError, ValueError) as error:  # ValueError: a NUL character in the name
         raise DeclarationError([f"{quoted(str(path))}: expected a readable TOML file, but {error}."]) from error

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset, TriangleTest
+from raytruth.comparisons.error_models.error_model import ErrorModel, TriangleTest
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.renderers.program.declaration import LeavingRays
 from raytruth.comparisons.renderers.program.output_images import numbers_of
 from raytruth.scenes.wording import described
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
+    from raytruth.comparisons.error_models.formulas import Formula
     from raytruth.comparisons.renderers.program.declaration import Declaration, Rays
 
 Location = tuple[str, ...]
@@ -35,6 +37,21 @@ SPHERE_POINTS: dict[str, Literal["along the ray", "normalised"]] = {
 }
 
 
+KEYS = {"sphere_test": "sphere", "sphere_points": "sphere_normals", "triangle_test": "triangle"}
+"""Of [formulas] in place of fields of an error model that are called otherwise."""
+
+
+def formula_in_file(formula: Formula) -> tuple[str, str] | None:
+    """Key and value that state a formula in a declaration; None for one that no file can state, or only by default."""
+    key = KEYS.get(formula.field, formula.field)
+    names: dict[str, Mapping[str, str]] = {"triangle_test": TRIANGLE_TESTS, "sphere_points": SPHERE_POINTS}
+    own = names.get(formula.field, {})
+    stated = {value: word for word, value in own.items()}
+    if formula.value == "as in the truth" or (formula.value in own and formula.value not in stated):
+        return None
+    return key, stated.get(formula.value, formula.value)
+
+
 def contradictions(declaration: Declaration) -> Iterator[tuple[Location, str]]:
     """Place and sentence for each key that does not go with another."""
     arithmetic, formulas = declaration.arithmetic, declaration.formulas
@@ -48,9 +65,14 @@ def contradictions(declaration: Declaration) -> Iterator[tuple[Location, str]]:
     if formulas.triangle in {"watertight", "plane and inside"} and formulas.triangle_points == "barycentric":
         told = f"expected 'along the ray' with the triangle test {described(formulas.triangle)}, which has no weights."
         yield ("formulas", "triangle_points"), told
+    if formulas.least_determinant > 0.0 and formulas.triangle != "moeller-trumbore":
+        told = "expected the triangle test 'moeller-trumbore' beside it; leave it out."
+        yield ("formulas", "least_determinant"), told
     if declaration.conventions.field_of_view != "vertical" and precision_bits(declaration) > MOST_BITS_OF_ANGLES:
         told = f"expected at most {MOST_BITS_OF_ANGLES} bits with a field of view that is not vertical"
         yield ("arithmetic", "precision"), f"{told}, since the angle told is rounded; leave slack_bits."
+    if declaration.family is not None and not declaration.reference:
+        yield ("family",), "expected reference = true beside it, since others have no opinion that counts; add it."
     yield from _contradictions_of_model(declaration)
     if declaration.sampling.samples:
         if (declaration.conventions.pixel, declaration.conventions.pitch) != ("centre", "size"):
@@ -100,6 +122,7 @@ def error_model_of_declaration(declaration: Declaration) -> ErrorModel:
         shadow_aim=rays.shadow_aim or ("either" if shadow.moves_rays else "light"),
         shadow_shortening=rays.shadow_shortening,
         triangle_test=TRIANGLE_TESTS.get(formulas.triangle, formulas.triangle),
+        least_determinant=formulas.least_determinant,
         triangle_points=formulas.triangle_points,
         sphere_test=formulas.sphere,
         sphere_points=SPHERE_POINTS[formulas.sphere_normals],

@@ -12,6 +12,9 @@ name = "{name}"
 # read and {{output}} the picture to write. There are also {{width}}, {{height}}, {{depth}}, {{seed}}, {{samples}},
 # {{folder}} (this one) and {{first_hits}}, an OpenEXR file with the channels Z, P.X, P.Y, P.Z, N.X, N.Y, N.Z and id.
 command = ["./{name}", "{{scene}}", "{{output}}"]
+# Patterns of other files that it consists of: when one changes, it is judged anew. By default, for a script, all files
+# with its ending in its folder and below.
+# files = ["src/**/*.py", "*.glsl"]
 # version = ["./{name}", "--version"]
 
 reads = "json"              # or obj, mitsuba, povray, gltf, pbrt: see raytruth scenes export
@@ -21,7 +24,8 @@ colours = "linear"          # or "srgb"
 # rounding = "truncated"    # if whole numbers are 255*x cut off, not 255*x + 0.5 cut off
 # clipped = true            # if colours above 1 are written as 1 in EXR or PFM
 # environment = {{ OMP_NUM_THREADS = "1" }}
-# family = "{name}"         # programs of one family share code, and are one opinion
+# reference = true          # only of an independent reference: what it passes confirms the truth
+# family = "{name}"         # of references: those of one family share code, and are one opinion
 
 [limits]                    # for each picture
 # seconds = 60
@@ -50,9 +54,9 @@ slack_bits = 14             # left for other formulas and another order of opera
 # In float32 declare what you have typed; raytruth renderers --formulas shows the code of each.
 # sphere = "quadratic"              # or "stable quadratic", "geometric"
 # sphere_normals = "normalised"     # p - c made a unit vector, not (p - c)/r
-# triangle = "moeller-trumbore"     # or "cramer", "plane and inside", "pluecker"
-# fresnel = "cosines"
-# refraction = "heckbert"           # or "bec"
+# triangle = "moeller-trumbore"     # or "cramer", "plane and inside", "pluecker"; least_determinant is its EPSILON
+# fresnel = "as specified"          # the specification's REFR-4 as it is written; or "cosines"
+# refraction = "as specified"       # REFR-2 and REFR-3 as they are written; or "heckbert", "bec"
 
 [conventions]               # undone before the picture is judged: none of these is a mistake
 # flip_x = true             # the first column is the rightmost

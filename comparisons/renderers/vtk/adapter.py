@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, Rasterisation
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.rasterisers.rasterisation_model import Rasterisation
 from raytruth.comparisons.error_models.rasterisers.view_volume import camera_axes, view_volume
 from raytruth.comparisons.processes.isolation import run_isolated
 from raytruth.comparisons.processes.worker_results import read_arrays

@@ -2,7 +2,7 @@
 //
 //     tracer SCENE.json OUTPUT.pfm
 //
-// -DREAL=float computes in float32. -DEPSILON=1e-4 keeps a ray from the surface that it leaves by a least distance,
+// -DREAL=float computes in float32. -DEPSILON=1e-3 keeps a ray from the surface that it leaves by a least distance,
 // as many tracers do; without it the surface is left out by its number, as the specification has it.
 #include <cstdio>
 

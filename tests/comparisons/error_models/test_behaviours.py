@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 import pytest
 
 from raytruth.comparisons.error_models.behaviours import behaviour_of
-from raytruth.comparisons.error_models.error_model import ErrorModel, Rasterisation, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.helpers import HELPERS
+from raytruth.comparisons.error_models.rasterisers.rasterisation_model import Rasterisation
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.shortcuts import without_shortcuts
 from raytruth.comparisons.feasible_sets.rounded_rays import PlainRays
 from raytruth.comparisons.renderers.catalogue import all_renderers

@@ -15,8 +15,9 @@ from raytruth.comparisons.error_models.bounded_offsets import (
     departure_within_bound,
     is_shadowed_from_within_bound,
 )
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.helpers import HELPERS
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.ray_offsets import offset_behaviour
 from raytruth.comparisons.renderers.cycles.adapter import Cycles
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from raytruth.comparisons.error_models.departures import Departures
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.faults.catalogue import all_faults
 from raytruth.comparisons.records.results import Verdict
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT

@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.usefixtures("keep_precision"), pytest.mark.clause("VER-2")]
 
 F = np.float32
-REFRACTIONS = ("heckbert", "bec")
+# Each with the formula of Fresnel's that goes with it in people's programs.
+FORMULAS = {"heckbert": "cosines", "bec": "cosines", "as specified": "as specified"}
+REFRACTIONS = tuple(FORMULAS)
 
 
 @pytest.fixture
@@ -61,6 +63,8 @@ def cases(count: int) -> Iterator[tuple[Any, Any, Any, Any]]:
 
 def program(direction: Any, normal: Any, first: Any, second: Any, refraction: str) -> tuple[Any, Any]:
     """Fresnel's reflectance and the refracted direction as many have them; None for total reflection."""
+    if refraction == "as specified":
+        return as_specified(direction, normal, second / first)
     eta = first / second
     cosine = -dot(direction, normal)
     scaled = eta * cosine
@@ -78,9 +82,20 @@ def program(direction: Any, normal: Any, first: Any, second: Any, refraction: st
     return F(0.5) * (across * across + within * within), eta * direction + (scaled - root) * normal
 
 
+def as_specified(direction: Any, normal: Any, eta: Any) -> tuple[Any, Any]:
+    """The same by REFR-2, REFR-3 and REFR-4 as they are written."""
+    c = -dot(direction, normal)
+    squared = eta * eta - F(1) + c * c
+    if squared < 0:
+        return None, None
+    g = np.sqrt(squared)
+    across, within = (c - g) / (c + g), (eta * eta * c - g) / (eta * eta * c + g)
+    return F(0.5) * (across * across + within * within), (direction + (c - g) * normal) / eta
+
+
 @pytest.mark.parametrize("refraction", REFRACTIONS)
 def test_the_enclosures_hold_what_a_program_computes_in_float32(refraction: str) -> None:
-    kernel, decisions = kernel_of(24, fresnel="cosines", refraction=refraction)
+    kernel, decisions = kernel_of(24, fresnel=FORMULAS[refraction], refraction=refraction)
 
     def split(direction: Any, normal: Any, first: Any, second: Any) -> tuple[Any, Any]:
         ratio = kernel.index_ratio_of(first, second)
@@ -116,7 +131,7 @@ def test_the_enclosures_hold_what_a_program_computes_in_float32(refraction: str)
 
 @pytest.mark.parametrize("refraction", REFRACTIONS)
 def test_a_formula_is_the_truths_in_exact_arithmetic(refraction: str) -> None:
-    kernel, _ = kernel_of(200, fresnel="cosines", refraction=refraction)
+    kernel, _ = kernel_of(200, fresnel=FORMULAS[refraction], refraction=refraction)
     truth, _ = kernel_of(200)
     for cosine in (0.01, 0.3, 0.7, 1.0):
         for ratio in (0.6, 1.0001, 1.5):
@@ -139,7 +154,11 @@ def test_a_formula_is_the_truths_in_exact_arithmetic(refraction: str) -> None:
 
 def test_only_what_is_declared_is_overridden() -> None:
     assert dielectric_behaviour(ErrorModel("", 24)).names == ()
-    assert set(dielectric_behaviour(ErrorModel("", 24, fresnel="cosines")).functions) == {"fresnel_reflectance"}
-    for refraction in REFRACTIONS:
+    specified = dielectric_behaviour(ErrorModel("", 24, refraction="as specified")).functions
+    assert set(specified) == {"snell_discriminant"}
+    for fresnel in ("cosines", "as specified"):
+        functions = dielectric_behaviour(ErrorModel("", 24, fresnel=fresnel)).functions  # type: ignore[arg-type]  # one of both
+        assert set(functions) == {"fresnel_reflectance"}
+    for refraction in ("heckbert", "bec"):
         functions = dielectric_behaviour(ErrorModel("", 24, refraction=refraction)).functions  # type: ignore[arg-type]  # one of both
         assert set(functions) == {"snell_discriminant", "refracted_direction"}

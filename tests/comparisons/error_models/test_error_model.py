@@ -5,7 +5,9 @@ from typing import Any
 
 import pytest
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, Rasterisation, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.rasterisers.rasterisation_model import Rasterisation
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.scenes.library import library_names, open_scene
 from tests.reference_tracer.small_scenes import small_scene, sphere

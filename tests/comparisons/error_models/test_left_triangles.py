@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from flint import arb
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.helpers import HELPERS
 from raytruth.comparisons.error_models.left_triangles import left_triangle_behaviour
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.ray_offsets import offset_behaviour
 from raytruth.comparisons.error_models.shortcuts import without_shortcuts
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel

@@ -10,8 +10,9 @@ from flint import arb
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.helpers import HELPERS
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.ray_offsets import offset_behaviour
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import Decisions, every_outcome, rounded_ball_arithmetic

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.shortcuts import has_shortcuts, shortcuts_in_words, without_shortcuts
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.scenes.library import open_scene
@@ -20,6 +21,7 @@ SHORTCUTS = {
     "a surface that is tested": replace(PLAIN, ray_offset=RayOffset(excludes_surface=False)),
     "short shadow rays": replace(PLAIN, shadow_shortening=1e-3),
     "a farthest distance": replace(PLAIN, farthest=1e4),
+    "missed triangles": replace(PLAIN, triangle_test="moeller-trumbore of 1997", least_determinant=1e-6),
     "near shadows": replace(PLAIN, ray_offset=TESTED, shadow_tolerance=1e-2),
 }
 
@@ -27,7 +29,7 @@ SHORTCUTS = {
 @pytest.mark.parametrize("name", SHORTCUTS)
 def test_a_shortcut_is_seen_and_taken_away_and_nothing_else_is(name: str) -> None:
     assert has_shortcuts(SHORTCUTS[name])
-    assert without_shortcuts(SHORTCUTS[name]) == PLAIN
+    assert without_shortcuts(SHORTCUTS[name]) == replace(PLAIN, triangle_test=SHORTCUTS[name].triangle_test)
 
 
 def test_arithmetic_and_output_are_no_shortcuts() -> None:

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from flint import arb
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.helpers import HELPERS
 from raytruth.comparisons.error_models.hit_points import hit_point_behaviour
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.ray_offsets import offset_behaviour
 from raytruth.comparisons.error_models.shortcuts import without_shortcuts
 from raytruth.comparisons.error_models.sphere_tests import sphere_test_behaviour

@@ -162,6 +162,27 @@ def test_the_enclosures_hold_what_a_program_computes_in_float32(name: str, progr
     assert unknown < 10  # of a triangle seen edge on nothing is known
 
 
+def test_with_an_epsilon_the_enclosures_hold_what_a_program_with_that_one_computes() -> None:
+    epsilon = 1e-6
+    model = ErrorModel("", 24, triangle_test="moeller-trumbore of 1997", least_determinant=epsilon)
+    decisions = Decisions()
+    arithmetic = put_in_force(rounded_ball_arithmetic(24, decisions))
+    kernel = make_kernel(arithmetic, set(Feature), behaviour_of(model, far_sphere()))
+    missed = hits = 0
+    for origin, direction, a, b, c in float32_cases(1000):
+        balls = [tuple(map(arb, vector.astype(float).tolist())) for vector in (origin, direction, a, b, c)]
+        found = list(every_outcome(lambda balls=balls: kernel.triangle_root(*balls), decisions, 256))
+        distance = float(moeller_trumbore_program(origin, direction, a, b, c))
+        if abs(dot(b - a, cross(direction, c - a))) < F(epsilon):
+            missed += math.isfinite(distance)
+            assert any(not ball.is_finite() for ball in found)
+        elif math.isfinite(distance):
+            hits += 1
+            assert any(ball.is_nan() or ball.contains(arb(distance)) for ball in found)
+    assert missed > 20  # which a program without it hits
+    assert hits > 100
+
+
 @pytest.mark.parametrize("name", FORMULAS)
 def test_a_formula_hits_what_the_truth_hits_at_the_same_distance(name: str) -> None:
     hits = misses = 0

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.feasible_sets.costly_lines import costliest_line, without_each_line
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from tests.reference_tracer.small_scenes import library_scene

@@ -11,8 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.error_models.shortcuts import without_shortcuts
 from raytruth.comparisons.feasible_sets.declared_outcomes import Outcomes, beside_what_is_due, with_truth
 from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet, feasible_set

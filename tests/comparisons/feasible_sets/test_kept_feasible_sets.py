@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.feasible_sets import kept_feasible_sets
 from raytruth.comparisons.feasible_sets.feasible_set import FeasibleSet, feasible_set
 from raytruth.comparisons.feasible_sets.kept_feasible_sets import kept_feasible_set

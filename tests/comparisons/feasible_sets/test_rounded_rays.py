@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, Rasterisation
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.rasterisers.rasterisation_model import Rasterisation
 from raytruth.comparisons.feasible_sets.rounded_rays import LinkedRays, PlainRays
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT
 from raytruth.reference_tracer.arithmetics.linked_balls import enclosure

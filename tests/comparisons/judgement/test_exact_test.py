@@ -210,6 +210,8 @@ def test_the_largest_error_is_from_the_truth_or_from_the_nearest_of_several_outc
     assert largest_error(row(3.25), truth(0.5), boxes(two)) == 0.25
     assert largest_error(row(0.75), truth(0.625), boxes(two)) == 0.125  # nearer to the truth than to a middle
     assert largest_error(row(0.5, (0.5, 0.5, 2.5)), truth(0.5, 0.5), boxes(one, one)) == 2.0
+    unbounded = (-math.inf, math.inf)
+    assert largest_error(row(0.75), truth(0.5), boxes([unbounded, unbounded])) == 0.25  # they have no middle
     assert largest_error(row(9.0), truth(0.5), boxes([])) == 0.0  # not judged
     assert math.isnan(largest_error(row(0.5, math.nan), truth(0.5, 0.5), boxes(one, one)))
 

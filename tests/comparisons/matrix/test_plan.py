@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 import pytest
 
 from raytruth.comparisons.error_models.error_model import ErrorModel
-from raytruth.comparisons.matrix.plan import PlannedCell
+from raytruth.comparisons.matrix.plan import PlannedCell, plan_run
 from raytruth.comparisons.matrix.whole_cells import CELL_FILE
 from raytruth.comparisons.records.results import Cell, Verdict
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.scenes.library import open_scene
 from tests.comparisons.matrix.cell_places import place_of
 from tests.comparisons.matrix.pretending import Pretender
-from tests.comparisons.matrix.runs import forget_version, plan, ran
+from tests.comparisons.matrix.runs import forget_version, opened, plan, ran
 from tests.comparisons.matrix.scene_files import scene_file
 
 if TYPE_CHECKING:
@@ -111,6 +111,14 @@ def test_before_anything_is_rendered_the_renderer_is_tried_again(pretender: Pret
     assert more.versions == {"pretender": None}
     assert {cell.verdict for cell in more.settled} == {Verdict.UNAVAILABLE}
     assert more.by_scene == {}
+
+
+def test_a_renderer_that_has_nothing_left_to_render_is_not_tried_again(pretender: Pretender, tmp_path: Path) -> None:
+    source, out, other = scene_file(tmp_path), tmp_path / "out", Pretender(name="other")
+    ran(pretender, [source], out)
+    planned = plan_run(opened([source]), [pretender, other], out, fresh=False)
+    assert [cell.place.renderer.name for cell in planned.cells] == ["other"]
+    assert (pretender.trials, other.trials) == (1, 1)
 
 
 def test_fresh_tries_again(pretender: Pretender, tmp_path: Path) -> None:

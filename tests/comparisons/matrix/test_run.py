@@ -166,16 +166,16 @@ def test_the_feasible_set_is_made_once_for_renderers_of_one_error_model(
     planned = plan_run(opened([scene_file(tmp_path)]), renderers, tmp_path, fresh=False)
     cells = list(run_plan(planned, tmp_path, jobs=1))
     assert [(cell.renderer, cell.verdict) for cell in cells] == [
-        ("one", Verdict.PASS),
-        ("three", Verdict.PASS),
         ("two", Verdict.PASS),
         ("four", Verdict.PASS),
+        ("one", Verdict.PASS),
+        ("three", Verdict.PASS),
     ]
     # Where only first hits are given, no colours are worked out.
     assert [(model.precision_bits, options["with_colors"]) for model, options in made] == [
-        (51, True),
         (24, False),
         (23, True),
+        (51, True),
     ]
 
 

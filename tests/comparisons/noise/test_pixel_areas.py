@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from raytruth.comparisons.error_models.error_model import RayOffset
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.comparisons.noise import pixel_areas
 from raytruth.comparisons.noise.pixel_areas import area_means, enlarged, largest_displacement
 from raytruth.reference_tracer.rendering import primary_rays, render

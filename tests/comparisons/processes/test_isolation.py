@@ -103,12 +103,12 @@ child = os.fork()
 if child == 0:
     {escape}
     time.sleep(600)
-print("child", child, flush=True)
+os.write(1, b"child %d\\n" % child)
 """
 ESCAPES = [
     "pass",
     "os.setsid()",
-    "os.setsid()\n    if os.fork(): os._exit(0)\n    print('child', os.getpid(), flush=True)",
+    "os.setsid()\n    if os.fork(): os._exit(0)\n    os.write(1, b'child %d\\n' % os.getpid())",
 ]
 
 

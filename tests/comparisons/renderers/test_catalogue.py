@@ -1,6 +1,19 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import pytest
 
-from raytruth.comparisons.renderers.catalogue import UnknownRendererError, all_renderers, select_renderers
+from raytruth.comparisons.renderers.catalogue import (
+    UnknownRendererError,
+    all_renderers,
+    family_of,
+    select_renderers,
+)
+from tests.comparisons.renderers.program.scripts import program
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 pytestmark = pytest.mark.clause("REN-5")
 
@@ -24,3 +37,13 @@ def test_no_names_select_all() -> None:
 def test_an_unknown_name_is_refused_with_a_suggestion() -> None:
     with pytest.raises(UnknownRendererError, match="did you mean 'mitsuba'"):
         select_renderers(["mitsuba", "mitsbua"])
+
+
+@pytest.mark.clause("REP-7")
+def test_a_users_program_is_no_opinion_unless_it_is_declared_to_be_a_reference(tmp_path: Path) -> None:
+    assert family_of(program(tmp_path)) is None
+    assert family_of(program(tmp_path, reference=True)) == "mine"
+    assert family_of(program(tmp_path, reference=True, family="ours")) == "ours"
+    renderers = all_renderers()
+    assert family_of(renderers["raytruth"]) is None
+    assert family_of(renderers["mitsuba-llvm"]) == family_of(renderers["mitsuba"]) == "mitsuba"

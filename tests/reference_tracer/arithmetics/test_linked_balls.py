@@ -11,11 +11,17 @@ from hypothesis import strategies as st
 
 from raytruth.reference_tracer.arithmetics.balls import Decisions
 from raytruth.reference_tracer.arithmetics.linked_arithmetic import linked_arithmetic
-from raytruth.reference_tracer.arithmetics.linked_balls import LinkedBall, condensed, difference, enclosure
+from raytruth.reference_tracer.arithmetics.linked_balls import (
+    LinkedBall,
+    condensed,
+    difference,
+    enclosure,
+    with_own_symbol,
+)
 from tests.reference_tracer.kernels import kept_precision, put_in_force
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
 pytestmark = pytest.mark.clause("ARI-4")
 
@@ -85,15 +91,23 @@ def test_whatever_float32_computes_lies_in_the_enclosure_and_in_the_range(
             assert not ball.is_finite() or ball.contains(arb(float(single))), (steps, [v.hex() for v in values])
 
 
-@given(STEPS, STEPS, st.lists(NUMBERS, min_size=2, max_size=3))
+def with_own_symbols(numbers: list[LinkedBall]) -> list[LinkedBall]:
+    return [with_own_symbol(number) for number in numbers]
+
+
+@pytest.mark.parametrize("shortened", [condensed, with_own_symbols])
+@given(before=STEPS, after=STEPS, values=st.lists(NUMBERS, min_size=2, max_size=3))
 def test_float32_stays_inside_when_the_numbers_are_condensed_on_the_way(
-    before: list[tuple[str, int, int]], after: list[tuple[str, int, int]], values: list[float]
+    shortened: Callable[[list[LinkedBall]], list[LinkedBall]],
+    before: list[tuple[str, int, int]],
+    after: list[tuple[str, int, int]],
+    values: list[float],
 ) -> None:
     singles = run_floats(before, [np.float32(value) for value in values])
     later = run_floats(after, singles)
     assume(all(is_normal(value) for value in later))
     made = arithmetic()
-    linked = condensed(run_linked(made.functions, before, [made.number(value) for value in values]))
+    linked = shortened(run_linked(made.functions, before, [made.number(value) for value in values]))
     event(f"bounded: {all(number.range.is_finite() for number in linked)}")
     for number, single in zip(run_linked(made.functions, after, linked), later, strict=True):
         ball = enclosure(number)
@@ -115,6 +129,21 @@ def test_an_error_that_two_numbers_share_counts_once(x: float, y: float) -> None
     # Second order: the range of the difference is known to 2 roundoffs, of which the last operation may add one.
     assert float(enclosure(total - total).rad()) <= 5 * abs(x + y) * 2.0 ** (-2 * BITS)
     assert difference(total, total).contains(0)
+
+
+@given(NUMBERS, NUMBERS, NUMBERS)
+def test_a_number_with_its_own_symbol_keeps_its_links_and_shares_its_rounding(x: float, y: float, z: float) -> None:
+    # A distance of which little is known leaves a point on the line that it is measured along.
+    made = arithmetic()
+    start, error = made.number(x), made.functions["ball"](arb(y, 0.01))
+    (start, error) = condensed([start, error])
+    distance = with_own_symbol(start * error + made.functions["ball"](arb(z, 0.001)))
+    there, back = start + distance, start - distance
+    assert float(enclosure(distance).rad()) > 0.001
+    # Four sums are rounded, none of them above twice these numbers, of which one is known to 0.01 of x and more.
+    roundings = 4 * 2 * (1.1 * abs(x) + abs(x * y) + abs(z)) * 2.0**-BITS
+    assert float(difference(there + back, start + start).rad()) <= roundings
+    assert float(difference(distance, start * error).rad()) < 0.0011 + roundings
 
 
 def test_a_rotation_repeated_a_hundred_times_grows_the_error_in_proportion() -> None:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, Rasterisation
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.rasterisers.rasterisation_model import Rasterisation
 from raytruth.comparisons.feasible_sets.feasible_set import UNUSED, feasible_set
 from raytruth.comparisons.judgement.first_hit_test import judge_first_hits
 from raytruth.reference_tracer.rendering import first_hits, prepare

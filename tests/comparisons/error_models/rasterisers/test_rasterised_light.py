@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from raytruth.comparisons.error_models.error_model import ErrorModel, Rasterisation
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.rasterisers.rasterisation_model import Rasterisation
 from raytruth.comparisons.error_models.rasterisers.rasterised_light import LEAST_COSINE
 from raytruth.comparisons.error_models.rasterisers.view_volume import camera_axes
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set

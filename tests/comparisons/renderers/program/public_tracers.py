@@ -1,8 +1,9 @@
 """Six tracers with the conventions, models and mistakes of public ones, run as programs of a user.
 
-`python -m tests.comparisons.renderers.program.public_tracers NAME wrong SCENE OUTPUT` renders a scene file and writes a
-PFM; `mended` in place of `wrong` is the same without its mistakes. The physics is the tracer's own source with
-edits, in interpreted floats; the pixels' rays, the angle and the picture's order are computed here as each does it.
+`python -m tests.comparisons.renderers.program.public_tracers NAME MISTAKE SCENE OUTPUT` renders a scene file with one
+of the tracer's mistakes, or with none (`mended`), and writes a PFM, or a PPM where the output is called so. The physics
+is the tracer's own source with edits, in interpreted floats; the pixels' rays, the angle and the picture's order are
+computed here as each does it.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ import numpy as np
 
 from raytruth.comparisons.error_models.behaviours import behaviour_of
 from raytruth.comparisons.error_models.departures import NONE, Departures
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel, TriangleTest
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
 from raytruth.reference_tracer.arithmetics.arithmetic import FLOAT, INTERPRETED_FLOAT32
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour, merged
 from raytruth.reference_tracer.arithmetics.edits import Edit, edited
@@ -38,10 +40,13 @@ class Tracer:
     """What a program does, and what its author can truthfully declare of it."""
 
     declares: dict[str, Any]
-    mistakes: Mapping[str, tuple[Edit, ...]]
-    """By the function that they are in."""
+    mistakes: Mapping[str, Mapping[str, tuple[Edit, ...]]]
+    """What is edited in which function, by the mistake's name."""
     numbers: str = "float64"
     rays: RayOffset = RayOffset()  # noqa: RUF009 - it is frozen
+    shadow_rays: RayOffset | None = None
+    """Where they leave otherwise than all others."""
+    triangle_test: TriangleTest = "watertight"
     departures: Departures = NONE
     angle_of: str = "height"
     """The side of the picture that it takes the scene's angle for."""
@@ -71,15 +76,22 @@ TRACERS = {
         departures=Departures(end_of_depth="background"),
     ),
     "lesson": Tracer(
-        {"arithmetic": FLOAT32, "rays": {"offset": 1e-5}},
         {
-            "direct_light": (
-                Edit(f"if {SHADOWED}:\n    return (0.0, 0.0, 0.0)", ""),
-                Edit(ADD_DIFFUSE, f"if not {SHADOWED}:\n    {ADD_DIFFUSE}"),
-            )
+            "arithmetic": FLOAT32,
+            "rays": {"offset": 1e-5, "shadow_aim": "light"},
+            "formulas": {"triangle": "moeller-trumbore"},
+        },
+        {
+            "highlights in shadows": {
+                "direct_light": (
+                    Edit(f"if {SHADOWED}:\n    return (0.0, 0.0, 0.0)", ""),
+                    Edit(ADD_DIFFUSE, f"if not {SHADOWED}:\n    {ADD_DIFFUSE}"),
+                )
+            }
         },
         numbers="float32",
         rays=RayOffset(absolute=1e-5),
+        triangle_test="moeller-trumbore of 1997",
     ),
     "literate": Tracer(
         {
@@ -93,7 +105,13 @@ TRACERS = {
             "model": {"clamped_lambert": True},
         },
         {
-            "mirror_direction": (Edit(MIRRORED, f"negate({MIRRORED})"),),
+            "mirrors look the other way": {"mirror_direction": (Edit(MIRRORED, f"negate({MIRRORED})"),)},
+            "hits behind the start": {
+                "sphere_distance": (
+                    Edit("half_linear < 0.0", "half_linear != 0.0"),
+                    Edit("foot > 0.0", "foot != 0.0"),
+                )
+            },
         },
         departures=Departures(clamped_lambert=True),
         angle_of="width",
@@ -104,7 +122,11 @@ TRACERS = {
     ),
     "go": Tracer(
         {"model": {"end_of_depth": "local"}, "conventions": {"clamped_samples": True}},
-        {"index_ratio": (Edit("inside / outside if entering else outside / inside", "inside / outside"),)},
+        {
+            "the same indices on leaving": {
+                "index_ratio": (Edit("inside / outside if entering else outside / inside", "inside / outside"),)
+            }
+        },
         departures=Departures(end_of_depth="local"),
         clamped=True,
     ),
@@ -115,12 +137,23 @@ TRACERS = {
             "model": {"fresnel": "schlick", "lit_from": "offset point", "textured_at": "offset point"},
         },
         {
-            "camera_frame": (
-                Edit(
-                    "normalize(cross(forward, vector_of(scene, CAMERA_UP, 0)))",
-                    "cross(forward, normalize(vector_of(scene, CAMERA_UP, 0)))",
-                ),
-            )
+            "a picture that grows with the tilt": {
+                "camera_frame": (
+                    Edit(
+                        "normalize(cross(forward, vector_of(scene, CAMERA_UP, 0)))",
+                        "cross(forward, normalize(vector_of(scene, CAMERA_UP, 0)))",
+                    ),
+                )
+            },
+            "a reflection for each light": {
+                "trace_ray": (
+                    Edit(
+                        "multiply(weight, vector_of(scene, MATERIAL_MIRROR, material))",
+                        "scale(multiply(weight, vector_of(scene, MATERIAL_MIRROR, material)), "
+                        "float(rows_of(scene, LIGHT_POSITION)))",
+                    ),
+                )
+            },
         },
         rays=RayOffset(absolute=1e-7),
         departures=Departures(fresnel="schlick", lit_from="offset point", textured_at="offset point"),
@@ -128,18 +161,29 @@ TRACERS = {
         mirrored=True,
     ),
     "java": Tracer(
-        {"arithmetic": FLOAT32, "rays": {"least_distance": 1e-6}, "conventions": {"pixel": "top left"}},
         {
-            "direct_light": (
-                Edit(
-                    "specular(scene, material, normal, direction, toward_light)",
-                    "specular(scene, material, normal, "
-                    "normalize(subtract(point, vector_of(scene, CAMERA_POSITION, 0))), toward_light)",
-                ),
-            )
+            "arithmetic": FLOAT32,
+            "rays": {
+                "least_distance": 1e-6,
+                "shadow": {"offset": 1e-3, "least_distance": 0.0, "own_surface": "tested"},
+                "shadow_aim": "light",
+            },
+            "conventions": {"pixel": "top left"},
+        },
+        {
+            "highlights as the camera would see them": {
+                "direct_light": (
+                    Edit(
+                        "specular(scene, material, normal, direction, toward_light)",
+                        "specular(scene, material, normal, "
+                        "normalize(subtract(point, vector_of(scene, CAMERA_POSITION, 0))), toward_light)",
+                    ),
+                )
+            }
         },
         numbers="float32",
         rays=RayOffset(minimum_distance=1e-6, excludes_surface=False),
+        shadow_rays=RayOffset(absolute=1e-3, excludes_surface=False),
         within=(0.0, 0.0),
     ),
 }
@@ -147,14 +191,21 @@ TRACERS = {
 
 def main() -> None:
     """Render as the arguments say."""
-    name, mended, scene_file, output = sys.argv[1:]
-    image = picture(TRACERS[name], load_scene(scene_file), mended=mended == "mended")
+    name, mistake, scene_file, output = sys.argv[1:]
+    image = picture(TRACERS[name], load_scene(scene_file), mistake)
+    height, width, _ = image.shape
     with Path(output).open("wb") as file:
-        file.write(b"PF %d %d -1.0\n" % (image.shape[1], image.shape[0]))
-        file.write(image[::-1].tobytes())  # a PFM begins with its lowest row
+        if output.endswith(".ppm"):
+            file.write(b"P6 %d %d 255\n" % (width, height))
+            file.write(
+                (np.clip(image, 0.0, 1.0) * np.float32(255.0)).astype(np.uint8).tobytes()
+            )  # cut off, not rounded
+        else:
+            file.write(b"PF %d %d -1.0\n" % (width, height))
+            file.write(image[::-1].tobytes())  # a PFM begins with its lowest row
 
 
-def picture(tracer: Tracer, scene: Scene, *, mended: bool) -> NDArray[np.float32]:
+def picture(tracer: Tracer, scene: Scene, mistake: str) -> NDArray[np.float32]:
     """The program's picture as it lies in its file, row by row from the top."""
     camera = scene.camera
     assert isinstance(camera, PerspectiveCamera)
@@ -164,10 +215,18 @@ def picture(tracer: Tracer, scene: Scene, *, mended: bool) -> NDArray[np.float32
         told = camera.model_copy(update={"vertical_field_of_view": degrees(2 * half)})
         scene = scene.model_copy(update={"camera": told})
     arithmetic = FLOAT if tracer.numbers == "float64" else INTERPRETED_FLOAT32
-    model = ErrorModel("", 53, tracer.rays, departures=tracer.departures)
+    model = ErrorModel(
+        "",
+        53,
+        tracer.rays,
+        shadow_offset=tracer.shadow_rays,
+        triangle_test=tracer.triangle_test,
+        departures=tracer.departures,
+    )
     behaviour = behaviour_of(model, scene).with_numbers(lambda ball: arithmetic.number(float(ball.mid())))
-    wrong = {} if mended else {function: edited(function, *edits) for function, edits in tracer.mistakes.items()}
-    prepared = prepare(scene, arithmetic, merged(behaviour, Behaviour(wrong, name="mistakes")))
+    edits = {} if mistake == "mended" else tracer.mistakes[mistake]
+    wrong = {function: edited(function, *those) for function, those in edits.items()}
+    prepared = prepare(scene, arithmetic, merged(behaviour, Behaviour(wrong, name=mistake)))
     frame = prepared.kernel.camera_frame(prepared.data)
     image = np.empty((camera.height, camera.width, 3), dtype=np.float32)
     for row in range(camera.height):

@@ -17,8 +17,10 @@ if TYPE_CHECKING:
 GREY = (0.5, 0.25, 0.125)
 WIDTH, HEIGHT = 6, 4
 
-# What every program begins with: a last word, and a way to write the right picture, and any other.
-BEGINNING = """#!{python} -ES
+# What every program begins with: a last word, and a way to write the right picture, and any other. The second line is a
+# command to a shell and nothing to Python: an interpreter's path after #! cannot have a space.
+BEGINNING = """#!/bin/sh
+"exec" "{python}" "-ES" "$0" "$@"
 import ctypes, os, signal, struct, sys, time
 width, height, output = int(sys.argv[1]), int(sys.argv[2]), sys.argv[3]
 print("last words", flush=True)

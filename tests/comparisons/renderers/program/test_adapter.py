@@ -138,6 +138,11 @@ def test_a_cell_has_another_key_when_the_program_or_its_declaration_has_changed(
     assert kept_version(rebuilt) is None
     write_script(tmp_path, "write()")
     assert key(program(tmp_path)) == key(first)
+    (tmp_path / "sky.glsl").write_text("blue")
+    shaded = key(program(tmp_path, files=["*.glsl"]))
+    assert key(program(tmp_path, files=["*.glsl"])) == shaded
+    (tmp_path / "sky.glsl").write_text("grey")
+    assert key(program(tmp_path, files=["*.glsl"])) != shaded
 
 
 def test_it_travels_to_other_processes(tmp_path: Path) -> None:

@@ -1,14 +1,17 @@
 from __future__ import annotations
 
 import shutil
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
-from raytruth.comparisons.renderers.program.command import filled_command, missing_program, named_files
-
-if TYPE_CHECKING:
-    from pathlib import Path
+from raytruth.comparisons.renderers.program.command import (
+    MOST_LOOKED_AT,
+    counted_files,
+    filled_command,
+    missing_program,
+    named_files,
+)
 
 pytestmark = pytest.mark.clause("REN-8")
 
@@ -57,3 +60,34 @@ def test_the_files_of_a_command_are_those_that_its_words_name_also_in_folders(fo
     command = ["./tracer", "data", "./lib", "lib", "none", "", "{scene}"]
     assert named_files(command, folder, {}) == [folder / "tracer", folder / "data", folder / "lib" / "part"]
     assert named_files(["./none", "data"], folder, {}) == [folder / "data"]
+
+
+@pytest.fixture
+def package(folder: Path) -> Path:
+    """The folder with a script that imports others, and with what it does not."""
+    (folder / ".venv").mkdir()
+    for name in ("tracer.py", "scene.py", "lib/shapes.py", "lib/noise.glsl", ".venv/other.py", "notes.md"):
+        (folder / name).write_text(name)
+    return folder
+
+
+@pytest.mark.clause("REN-10")
+def test_a_script_counts_with_all_of_its_kind_beside_it_and_below(package: Path) -> None:
+    of_script = counted_files(["sh", "tracer.py", "{scene}"], package, {}, None)
+    beside = [package / name for name in ("tracer.py", "lib/shapes.py", "scene.py")]
+    assert of_script == [Path(str(shutil.which("sh"))), *beside]
+    assert counted_files(["./tracer", "{scene}"], package, {}, None) == [package / "tracer"]
+
+
+@pytest.mark.clause("REN-10")
+def test_patterns_say_what_else_counts_in_place_of_that(package: Path) -> None:
+    counted = counted_files(["./tracer"], package, {}, ["lib/*.glsl", "**/s*.py"])
+    assert counted == [package / name for name in ("tracer", "lib/noise.glsl", "lib/shapes.py", "scene.py")]
+    assert counted_files(["sh", "tracer.py"], package, {}, [])[1:] == [package / "tracer.py"]
+
+
+@pytest.mark.clause("REN-10")
+def test_nobody_looks_through_a_whole_disk(package: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert MOST_LOOKED_AT > 1000
+    monkeypatch.setattr("raytruth.comparisons.renderers.program.command.MOST_LOOKED_AT", 5)
+    assert counted_files(["sh", "tracer.py"], package, {}, None)[1:] == [package / "tracer.py"]

@@ -66,6 +66,8 @@ def test_the_file_to_start_from_loads_as_it_is_and_so_does_each_of_its_lines_tha
         # Of a program that draws random numbers the command must have a seed.
         more = text.replace('"{output}"]', '"{output}", "{seed}"]') if line.startswith("samples") else text
         one = more.replace(lines[number], line)
+        if line.startswith("family"):
+            one = one.replace(line, f"reference = true\n{line}")
         one = one.replace('own_surface = "excluded"', 'own_surface = "tested"')
         load_declaration(written(tmp_path, one))
 
@@ -113,6 +115,10 @@ precision = "float32"
         ("numbers = 'uint16'", "numbers: expected 'float' or 'half' in exr, found 'uint16'."),
         ("writes = 'png'\nclipped = false", "clipped: expected true, since whole numbers hold nothing above 1."),
         ("writes = 'hdr'\ncolours = 'srgb'", "colours: expected 'linear' in hdr, found 'srgb'."),
+        ("formulas.least_determinant = 1e-6", "formulas.least_determinant: expected the triangle test"),
+        ("family = 'mine'", "family: expected reference = true beside it"),
+        ("files = ['/src/*.py']", "files[0]: expected a pattern as src/**/*.py: from the folder of this file"),
+        ("files = ['src/**.py']", "files[0]: expected a pattern as src/**/*.py"),
         ("sampling.samples = 4", "command: expected the placeholder {seed}, since samples are drawn; add it."),
         ("arithmetic = { precision = 'float32', slack_bits = 20 }", "arithmetic.slack_bits: expected to leave 8 bits"),
         ("formulas.triangle_points = 'barycentric'", "formulas.triangle_points: expected 'along the ray'"),

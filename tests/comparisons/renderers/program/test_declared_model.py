@@ -6,12 +6,15 @@ from typing import Any, Literal, get_args, get_origin
 import pytest
 
 from raytruth.comparisons.error_models.departures import Departures
-from raytruth.comparisons.error_models.error_model import ErrorModel, RayOffset
+from raytruth.comparisons.error_models.error_model import ErrorModel
+from raytruth.comparisons.error_models.formulas import FORMULAS
 from raytruth.comparisons.error_models.output_model import OutputModel
+from raytruth.comparisons.error_models.ray_offset_model import RayOffset
+from raytruth.comparisons.error_models.shortcuts import has_shortcuts, without_shortcuts
 from raytruth.comparisons.feasible_sets.feasible_set import feasible_set
 from raytruth.comparisons.renderers.program.declaration import Formulas
 from raytruth.comparisons.renderers.program.declaration_file import checked_declaration
-from raytruth.comparisons.renderers.program.declared_model import error_model_of_declaration
+from raytruth.comparisons.renderers.program.declared_model import error_model_of_declaration, formula_in_file
 from raytruth.comparisons.renderers.program.model import Model
 from raytruth.reference_tracer.camera_rays import CameraRays
 from tests.reference_tracer.small_scenes import small_scene
@@ -125,7 +128,7 @@ def choices() -> list[tuple[str, str]]:
     found = []
     for key, field in Formulas.model_fields.items():
         kinds = [kind for kind in (field.annotation, *get_args(field.annotation)) if get_origin(kind) is Literal]
-        found += [(key, value) for value in get_args(kinds[0])]
+        found += [(key, value) for kind in kinds for value in get_args(kind)]
     return found
 
 
@@ -137,6 +140,22 @@ def test_every_formula_that_can_be_declared_is_one_of_an_error_model(key: str, v
     assert (declared == plain) == (value == Formulas.model_fields[key].default)
     feasible = feasible_set(small_scene(), declared)
     assert feasible.outcomes.min() > 0
+
+
+def test_every_formula_that_can_be_declared_has_a_line_of_code_and_means_that_one() -> None:
+    in_file = {line: formula for formula in FORMULAS if (line := formula_in_file(formula)) is not None}
+    assert in_file.keys() == set(choices())
+    for (key, value), formula in in_file.items():
+        others = {"triangle": "pluecker"} if value == "barycentric" else {}
+        assert getattr(model(formulas={key: value, **others}), formula.field) == formula.value
+    assert model(formulas={"triangle": "moeller-trumbore"}).triangle_test == "moeller-trumbore of 1997"
+
+
+def test_the_epsilon_of_moeller_and_trumbore_is_a_shortcut() -> None:
+    declared = model(formulas={"triangle": "moeller-trumbore", "least_determinant": 1e-6})
+    assert declared.least_determinant == 1e-6
+    assert has_shortcuts(declared)
+    assert without_shortcuts(declared) == model(formulas={"triangle": "moeller-trumbore"})
 
 
 def test_each_kind_of_ray_may_leave_a_surface_in_its_own_way() -> None:
@@ -154,4 +173,4 @@ def test_each_kind_of_ray_may_leave_a_surface_in_its_own_way() -> None:
 
 
 def test_programs_that_declare_the_same_share_feasible_sets() -> None:
-    assert model() == model(family="other", limits={"seconds": 3})
+    assert model() == model(reference=True, family="other", limits={"seconds": 3})

@@ -29,19 +29,22 @@ ROOT = Path(__file__).parents[4]
 COMMAND = [sys.executable, "-m", "tests.comparisons.renderers.program.public_tracers"]
 
 
+TRIANGLE = ((-2.6, -0.43, -1.9), (0.6, -0.39, -2.3), (-0.9, 1.9, -2.1))
+
+
 @cache
-def room() -> Scene:
-    """A shiny, a mirroring and a glass sphere above a checkered one that is the floor; two lights, and a sky."""
+def room(*, sky: bool = True) -> Scene:
+    """A shiny, a mirroring and a glass sphere and a triangle above a checkered plane; two lights, and a sky or none."""
     shiny = {"reflectance": (0.5, 0.5, 0.5), "exponent": 9.0, "model": "phong"}
     board = {"even": (0.8, 0.7, 0.6), "odd": (0.2, 0.3, 0.4), "size": 0.71, "plane": "xz", "offset": (0.13, 0.29)}
     return small_scene(
         projection="perspective",
-        width=14,
-        height=10,
+        width=18,
+        height=13,
         extent=38.0,
         camera={"position": (0.31, 1.73, 6.1), "look_at": (0.07, 0.21, 0.0)},
         max_depth=2,
-        background={"bottom": (0.11, 0.13, 0.17), "top": (0.31, 0.43, 0.61)},
+        background={"bottom": (0.11, 0.13, 0.17), "top": (0.31, 0.43, 0.61)} if sky else {"color": (0.0, 0.0, 0.0)},
         materials={
             "shiny": {"diffuse": {"reflectance": (0.7, 0.3, 0.2)}, "specular": shiny},
             "mirror": {"mirror": {"reflectance": (0.7, 0.8, 0.9)}},
@@ -52,20 +55,22 @@ def room() -> Scene:
             sphere("shiny", (-1.45, 0.13, 0.23), 0.71),
             sphere("mirror", (0.07, 0.31, -0.59), 0.83),
             sphere("glass", (1.37, 0.11, 0.71), 0.67),
-            sphere("floor", (0.03, -9.1, -0.2), 8.6),
+            {"shape": "mesh", "vertices": TRIANGLE, "faces": ((0, 1, 2),), "material": "shiny"},
+            {"shape": "plane", "point": (0.03, -0.61, -0.2), "normal": (0.02, 1.0, 0.03), "material": "floor"},
         ],
         lights=[lamp((2.3, 4.1, 3.7), 0.71), lamp((-3.1, 3.3, 2.9), 0.61)],
     )
 
 
-def cell_of(name: str, folder: Path, *, mended: bool, **declared: Any) -> Cell:
-    words = [*COMMAND, name, "mended" if mended else "wrong", "{scene}", "{output}"]
+def cell_of(name: str, folder: Path, mistake: str = "mended", *, scene: Scene | None = None, **declared: Any) -> Cell:
+    """The tracer with one of its mistakes or none, by what it declares and what is declared otherwise."""
+    words = [*COMMAND, name, mistake, "{scene}", "{output}"]
     environment = {"PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
     data = {"name": name, "command": words, "writes": "pfm", "environment": environment} | TRACERS[name].declares
     data = data | declared
     renderer = ProgramRenderer(checked_declaration(data, f"{name}.toml"), folder, f"--renderer-file {name}.toml")
     folder.mkdir(exist_ok=True)
-    scene = room()
+    scene = scene or room()
     assert renderer.refuses(scene) is None
     place = place_of(scene, renderer, "whitted")
     make_truth(place.scene, folder / "results")
@@ -81,42 +86,55 @@ MENDED = {
     "literate": Verdict.DECLARED,
     "go": Verdict.DECLARED,
     "challenge": Verdict.DECLARED,
+    "java": Verdict.PASS,
 }
 
 
 @pytest.mark.parametrize("name", MENDED)
 def test_without_its_mistakes_each_passes_or_is_declared(name: str, tmp_path: Path) -> None:
-    cell = cell_of(name, tmp_path, mended=True)
+    cell = cell_of(name, tmp_path)
     assert cell.verdict == MENDED[name], cell.reason
 
 
-@pytest.mark.parametrize("name", ["lesson", "literate", "go", "challenge"])
-def test_each_wrong_one_fails(name: str, tmp_path: Path) -> None:
-    cell = cell_of(name, tmp_path, mended=False)
+def test_what_shows_nowhere_is_a_pass(tmp_path: Path) -> None:
+    """Where rays leave and nothing is around, the background of those that may not be traced any more is black."""
+    cell = cell_of("tiny", tmp_path, scene=room(sky=False))
+    assert cell.verdict == Verdict.PASS, cell.reason
+
+
+def test_bytes_that_are_cut_off_instead_of_rounded_pass_for_who_says_so(tmp_path: Path) -> None:
+    cut = {"writes": "ppm", "rounding": "truncated"}
+    cell = cell_of("lesson", tmp_path / "told", **cut)
+    assert cell.verdict == Verdict.PASS, cell.reason
+    cell = cell_of("lesson", tmp_path / "untold", **cut | {"rounding": "nearest"})
+    assert cell.verdict == Verdict.FAIL, cell.reason
+
+
+MISTAKES = [(name, mistake) for name, tracer in TRACERS.items() for mistake in tracer.mistakes]
+
+
+@pytest.mark.parametrize(("name", "mistake"), MISTAKES)
+def test_each_mistake_fails_by_itself(name: str, mistake: str, tmp_path: Path) -> None:
+    """It is the cause: without it the same tracer with the same declaration fails nowhere."""
+    cell = cell_of(name, tmp_path, mistake)
     assert cell.verdict == Verdict.FAIL, cell.reason
 
 
 def test_highlights_in_shadows_are_no_mistake_of_who_declares_them(tmp_path: Path) -> None:
-    cell = cell_of("lesson", tmp_path, mended=False, model={"highlights": "shadowed"})
+    cell = cell_of("lesson", tmp_path, "highlights in shadows", model={"highlights": "shadowed"})
     assert cell.verdict == Verdict.DECLARED, cell.reason
 
 
-def test_who_tests_the_surface_that_a_ray_leaves_is_not_excused_for_a_mistake(tmp_path: Path) -> None:
-    mended = cell_of("java", tmp_path / "mended", mended=True)
-    assert mended.verdict == Verdict.DECLARED
-    # The truth of rays through corners lies in the cell's own folder, and is none of the scene's.
-    assert mended.images is not None
-    own, of_scene = (
-        read_image(tmp_path / "mended" / "results" / path) for path in (mended.images.truth, "cells/small/truth.exr")
-    )
+def test_the_truth_of_rays_through_corners_is_the_cells_own(tmp_path: Path) -> None:
+    cell = cell_of("java", tmp_path)
+    assert cell.images is not None
+    own, of_scene = (read_image(tmp_path / "results" / path) for path in (cell.images.truth, "cells/small/truth.exr"))
     assert (own != of_scene).any()
-    cell = cell_of("java", tmp_path / "wrong", mended=False)
-    assert cell.verdict == Verdict.FAIL, cell.reason
 
 
 @pytest.mark.clause("VER-4")
 def test_a_declaration_that_leaves_too_much_open_is_incomparable_and_names_its_line(tmp_path: Path) -> None:
-    cell = cell_of("lesson", tmp_path, mended=True, arithmetic={"bits": 9})
+    cell = cell_of("lesson", tmp_path, scene=room().resized(4, 3), arithmetic={"bits": 9})
     assert cell.verdict == Verdict.INCOMPARABLE, cell.reason
     assert "cannot be judged" in cell.reason
     assert "; what costs most is [arithmetic]: without it" in cell.reason
@@ -134,5 +152,5 @@ UNTOLD: list[tuple[str, dict[str, Any]]] = [
 
 @pytest.mark.parametrize(("name", "declared"), UNTOLD)
 def test_a_convention_or_a_model_that_is_not_told_fails(name: str, declared: dict[str, Any], tmp_path: Path) -> None:
-    cell = cell_of(name, tmp_path, mended=True, **declared)
+    cell = cell_of(name, tmp_path, **declared)
     assert cell.verdict == Verdict.FAIL, cell.reason
