@@ -24,8 +24,11 @@ def sayings() -> tuple[str, ...]:
 
 
 def said_by(scene: Scene) -> frozenset[str]:
-    """What a scene says of it."""
-    return frozenset(_said_by_model(scene, ""))
+    """What a scene says of it; of materials only those that an object has, or that are media."""
+    used = {shape.material for shape in scene.objects} | {scene.camera.inside}
+    used |= {material.dielectric.outside for material in scene.materials.values() if material.dielectric}
+    materials = {name: material for name, material in scene.materials.items() if name in used}
+    return frozenset(_said_by_model(scene.model_copy(update={"materials": materials}), ""))
 
 
 def _of_model(model: type[BaseModel], place: str) -> Iterator[str]:
