@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 from rich.console import Console
 
+from raytruth.comparisons.matrix.drawn_scenes import write_drawn_scenes
 from raytruth.comparisons.matrix.earlier_results import damage_of
 from raytruth.comparisons.matrix.plan import Plan, plan_run
 from raytruth.comparisons.matrix.quick_suite import write_quick_suite
@@ -53,6 +54,8 @@ def run(
     fresh: Annotated[bool, Parameter(negative="")] = False,
     strict: Annotated[bool, Parameter(negative="")] = False,
     quick: Annotated[bool, Parameter(negative="")] = False,
+    families: int | None = None,
+    seed: int | None = None,
     junit: Path | None = None,
     summary: Path | None = None,
     as_json: AsJson = False,
@@ -91,6 +94,10 @@ def run(
     quick
         Only the quick suite: few scenes with small images, which still find every fault of the catalogue
         (`raytruth faults`).
+    families
+        So many scenes drawn over all that the scene format can say, with small images, instead of the library.
+    seed
+        What draws them: the same seed draws the same scenes; 0 by default.
     junit
         Write the verdicts in the results directory to this file, too, as JUnit XML: a test for each cell.
     summary
@@ -105,7 +112,7 @@ def run(
     programs = programs_of(renderer_command, renderer_file)
     selected, required = _chosen(renderer, require, programs)
     known_failures = _waivers(waivers, programs)
-    opened = _opened(scenes, out, quick=quick)
+    opened = open_scenes(_chosen_scenes(scenes, out, quick=quick, families=families, seed=seed))
     with only_run_in(out):
         _tell_damage(out)
         plan = _planned(opened, selected, out, processes, fresh=fresh)
@@ -176,11 +183,21 @@ def _written(
     return results, waived, unmatched
 
 
-def _opened(scenes: Sequence[str], out: Path, *, quick: bool) -> dict[str, Scene]:
-    """The scenes to run, each by what names it; raises UsageError for mistakes in them."""
+def _chosen_scenes(
+    scenes: Sequence[str], out: Path, *, quick: bool, families: int | None, seed: int | None
+) -> Sequence[str]:
+    """What names the scenes to run. Raises UsageError for ways of naming them that exclude one another."""
     if quick and scenes:
         raise UsageError("--quick: expected no scenes beside it, since it names the quick suite's own.")
-    return open_scenes(write_quick_suite(out) if quick else scenes or library_names())
+    if families is None:
+        if seed is not None:
+            raise UsageError("--seed: expected --families beside it, which says how many scenes to draw.")
+        return write_quick_suite(out) if quick else scenes or library_names()
+    if quick or scenes:
+        raise UsageError("--families: expected neither scenes nor --quick beside it, since it draws the scenes itself.")
+    if families < 1:
+        raise UsageError(f"--families: expected 1 scene or more, found {families}.")
+    return write_drawn_scenes(out, families, seed or 0)
 
 
 def _tell_damage(out: Path) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import App, Parameter
 
+from raytruth.coverage_command import scenes_coverage
 from raytruth.errors import UsageError
 from raytruth.export_command import export
 from raytruth.options import AsJson, open_scene
@@ -144,3 +145,4 @@ def _problems(file: str) -> list[str]:
 
 
 app.command(export)
+app.command(scenes_coverage, name="coverage")

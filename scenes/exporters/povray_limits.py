@@ -17,6 +17,7 @@ from raytruth.scenes.shapes import Mesh, Plane, Sphere
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from collections.abc import Set as AbstractSet
 
     from numpy.typing import NDArray
 
@@ -42,8 +43,8 @@ def refuses(scene: Scene) -> str | None:
         return f"POV-Ray meets nothing that is farther than {FARTHEST:.0e} units away, and rays may go {reach:.2g} here"
     if len(scene.lights) > 1 and any(polynomial_falloff(light) for light in scene.lights):
         return "lights of POV-Ray lack this polynomial attenuation, and a filter in its place would dim others, too"
-    reason = _refuses_dielectrics(scene) if scene.max_depth else None
-    return reason or missing_features("POV-Ray", EXPRESSES, required_features(scene))
+    required = required_features(scene)
+    return _refuses_media(scene, required) or missing_features("POV-Ray", EXPRESSES, required)
 
 
 def unit_of(scene: Scene) -> int:
@@ -58,9 +59,16 @@ def unit_of(scene: Scene) -> int:
     return unit
 
 
-def _refuses_dielectrics(scene: Scene) -> str | None:
-    """POV-Ray knows a ray's medium from the surfaces it has passed, and ours from the surface that it meets."""
+def _refuses_media(scene: Scene, required: AbstractSet[Feature]) -> str | None:
+    """Where no ray is refracted, the camera's medium shows all the same if it absorbs."""
     shapes = [shape for shape in scene.objects if scene.materials[shape.material].dielectric]
+    if scene.max_depth:
+        return _refuses_dielectrics(scene, shapes)
+    return _refuses_camera(scene, shapes) if Feature.ABSORPTION in required else None
+
+
+def _refuses_dielectrics(scene: Scene, shapes: list[Shape]) -> str | None:
+    """POV-Ray knows a ray's medium from the surfaces it has passed, and ours from the surface that it meets."""
     for shape in shapes:
         reason = _refuses_dielectric(scene, _dielectric_of(scene, shape)) or _refuses_shape(shape)
         if reason:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from raytruth.scenes.families import contacts, drawn, lights, optics, planes, sizes
+from raytruth.scenes.families import contacts, drawn, language, lights, optics, planes, sizes
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -41,6 +41,8 @@ ULP = 2.0**-52
 """The unit in the last place of 1; families of ulps use small multiples of it."""
 
 FAMILIES: dict[str, Family] = {
+    # Every 25th of the rows of its covering array, for all of which there is `raytruth run --families`.
+    "language": Family(language.language, tuple(float(row) for row in range(0, 175, 25))),
     "drawn": Family(drawn.drawn, _powers(-4, -2, 0, 2, 4)),
     "scale": Family(sizes.scale, _powers(-9, -6, -3, 0, 3, 6, 9)),
     "sphere-size": Family(sizes.sphere_size, _powers(-5, -3, -1, 0, 1, 3, 5, 7)),

@@ -315,3 +315,32 @@ def test_an_interrupted_run_can_be_resumed(
 def test_a_cell_that_is_as_declared_fails_a_strict_run_only(strict: bool, status: int) -> None:
     cell = Cell(scene="a", renderer="b", integrator="c", verdict=Verdict.DECLARED, reason="by its offset", command="")
     assert run_command._status([cell], {}, [], strict=strict) == status
+
+
+@pytest.mark.usefixtures("pretender")
+def test_families_are_scenes_that_a_seed_draws_and_repeats(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ("run", "--families", "3", "--renderer", "pretender")
+    assert run(capsys, *arguments, "--seed", "5", "--out", "five")[0] == 0
+    assert run(capsys, *arguments, "--seed", "5", "--out", "again")[0] == 0
+    assert run(capsys, *arguments, "--out", "other")[0] == 0
+    drawn = {out: [cell.scene for cell in results_in(folder / out).cells] for out in ("five", "again", "other")}
+    assert len(set(drawn["five"])) == 3
+    assert drawn["five"] == drawn["again"] != drawn["other"]
+    texts = [(folder / out / "drawn-scenes" / f"{drawn['five'][0]}.json").read_text() for out in ("five", "again")]
+    assert texts[0] == texts[1]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["--families", "0"], "expected 1 scene or more"),
+        (["--families", "3", "small.json"], "expected neither scenes nor --quick"),
+        (["--families", "3", "--quick"], "expected neither scenes nor --quick"),
+        (["--seed", "3"], "expected --families beside it"),
+    ],
+)
+def test_ways_to_name_scenes_that_exclude_one_another_are_refused(
+    arguments: list[str], expected: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert expected in refusal(capsys, "run", *arguments)
+    assert not (folder / "results").exists()

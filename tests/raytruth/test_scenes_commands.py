@@ -87,3 +87,22 @@ def test_validate_as_json_has_an_entry_for_each_file(tmp_path: Path, capsys: pyt
     assert (good["file"], good["valid"], good["problems"]) == ("single-sphere", True, [])
     assert (bad["file"], bad["valid"]) == (str(broken), False)
     assert bad["problems"]
+
+
+def test_coverage_as_json_counts_what_scenes_say_and_finds_no_hole(capsys: pytest.CaptureFixture[str]) -> None:
+    found = document(capsys, "scenes", "coverage")
+    says = {each["saying"]: each for each in found["sayings"]}
+    assert says["camera.up"]["library"] >= 2
+    assert says["materials.*.diffuse.reflectance.checkerboard.plane is xy"]["library"] >= 1
+    assert found["pairs_only_in_family"] > 0
+    assert (found["holes"], found["pair_holes"]) == ([], [])
+
+
+def test_coverage_in_words_ends_with_what_is_missing(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert run(capsys, "scenes", "coverage")[1].splitlines()[-1] == "No hole."
+    monkeypatch.setattr("raytruth.scenes.pair_coverage.library_names", lambda: ["single-sphere"])
+    status, out, _ = run(capsys, "scenes", "coverage")
+    assert status == 1
+    assert "hole: no scene of the library says that camera.up\n" in out

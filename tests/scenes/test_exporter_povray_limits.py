@@ -29,6 +29,7 @@ PARALLEL = {key: value for key, value in CAMERA.items() if key != "vertical_fiel
     "projection": "orthographic",
     "view_height": 3.0,
 }
+UNDER_WATER = {"m": RED, "water": {"dielectric": {"index_of_refraction": 1.33, "absorption": (0.1, 0.1, 0.1)}}}
 
 
 def glass(**changes: Any) -> dict[str, Any]:
@@ -51,6 +52,8 @@ def glass(**changes: Any) -> dict[str, Any]:
         (glass(objects=[BALL, TETRAHEDRON]), "overlap"),
         (glass(objects=[BALL | {"center": (0.0, 1.0, 5.2)}]), "camera may be inside"),
         (glass(camera=CAMERA | {"inside": "m"}), "camera's medium"),
+        ({"materials": UNDER_WATER, "camera": CAMERA | {"inside": "water"}}, "camera's medium"),
+        ({"materials": UNDER_WATER, "camera": PARALLEL | {"inside": "water"}}, "parallel rays"),
         (glass(objects=[BALL, PLANE]), "overlap"),
         (glass(objects=[PLANE | {"normal": (0.0, -1.0, 0.0)}]), "camera may be inside"),
         (glass(objects=[PLANE], camera=CAMERA | {"inside": "m"}), "camera's medium"),
