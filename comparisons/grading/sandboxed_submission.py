@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from raytruth.comparisons.renderers.program.command import counted_files
 from raytruth.comparisons.sandboxes.open_files import is_open_to_others, opened
 from raytruth.comparisons.sandboxes.sandbox import Sandbox, SandboxError, is_root
-from raytruth.comparisons.sandboxes.visible_paths import installed, own_files, without_hidden
+from raytruth.comparisons.sandboxes.visible_paths import installation_of, installed, own_files, without_hidden
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -29,18 +29,20 @@ def in_sandbox(
     It sees the folders of the files that its command names, what its declaration counts among its files, and `shown`;
     nothing of `hidden`, even if it lies in these. Raises SandboxError where it cannot be run there.
     """
-    declared = program.declaration
+    declared, secrets = program.declaration, tuple(hidden)
+    search_path = declared.environment.get("PATH", os.environ.get("PATH", ""))
     files = counted_files(declared.command, program.folder, declared.environment, declared.files)
-    elsewhere = installed(declared.environment.get("PATH", os.environ.get("PATH", "")))
+    elsewhere = installed(search_path)
     own = list(own_files(path for path in files if not any(path.is_relative_to(folder) for folder in elsewhere)))
     if declared.uses("folder"):
         own.append(program.folder)
     own = _outermost(own)
-    visible = without_hidden(own, hidden)
+    visible = without_hidden(own, secrets)
     in_part = tuple(path for path in own if path.is_dir() and path not in visible)
-    others = without_hidden((path.resolve() for path in shown), hidden)
+    others = [*installation_of(files[0], search_path), *(path.resolve() for path in shown)]
+    others = list(without_hidden(others, secrets))
     with opened(visible, in_part) as names:
-        sandbox = Sandbox(rung, (*names, *((path, path) for path in others)), in_part)
+        sandbox = Sandbox(rung, (*names, *((path, path) for path in others)), in_part, secrets)
         _check([files[0], *others], sandbox)
         yield replace(program, sandbox=sandbox)
 

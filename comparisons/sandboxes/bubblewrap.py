@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.sandboxes.visible_paths import PROCESSORS, SYSTEM
+from raytruth.comparisons.sandboxes.visible_paths import PROCESSORS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,15 +24,20 @@ _SHARED = ("/tmp", "/var/tmp", "/dev/shm")
 
 
 def wrapped(
-    command: Sequence[str], folder: Path, scratch: Path, visible: Sequence[tuple[Path, Path]], user: int | None
+    command: Sequence[str],
+    folder: Path,
+    scratch: Path,
+    system: Sequence[Path],
+    visible: Sequence[tuple[Path, Path]],
+    user: int | None,
 ) -> list[str]:
     """The command in a sandbox in which it can write to `folder` and `scratch` only, as this user if we are root.
 
-    `visible` are names with what is shown there.
+    `system` is what it may see of the system's files, and `visible` are names of others with what is shown there.
     """
     words = ["bwrap", *_NAMESPACES, "--die-with-parent", "--new-session", "--cap-drop", "ALL"]
     words += ["--unshare-user"] if user is None else _TO_DROP_THE_ID
-    for path in SYSTEM:
+    for path in system:
         words += _shown_system(path)
     words += ["--proc", "/proc", "--dev", "/dev"]
     words += ["--ro-bind-try", str(PROCESSORS), str(PROCESSORS)]
@@ -55,7 +60,7 @@ def _shown_system(path: Path) -> list[str]:
     """As a link where it is one, as /bin to usr/bin."""
     if path.is_symlink():
         return ["--symlink", str(path.readlink()), str(path)]
-    return ["--ro-bind-try", str(path), str(path)]
+    return ["--dir", str(path.parent), "--ro-bind", str(path), str(path)]
 
 
 def _as_user(user: int) -> list[str]:

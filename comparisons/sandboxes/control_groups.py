@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 _TREES = Path("/sys/fs/cgroup")
 MEMBERS = "cgroup.procs"
-# The kernel needs a moment to let go of processes that have ended.
-_REMOVAL_SECONDS = 1.0
+# The kernel needs a moment to let go of processes that have ended, and to take back their memory on a busy machine.
+_REMOVAL_SECONDS = 10.0
 _PAUSE_SECONDS = 0.01
 
 

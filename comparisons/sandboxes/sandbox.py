@@ -39,6 +39,8 @@ class Sandbox:
     which is the same or a copy."""
     listable: tuple[Path, ...] = ()
     """Folders of which it may see parts only, and the names of the rest where the rung cannot conceal them."""
+    hidden: tuple[Path, ...] = ()
+    """What it must not see, even if it lies among the system's files."""
     processes: int = MOST_PROCESSES
     """How many it may have at once."""
 

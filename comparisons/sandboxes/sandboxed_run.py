@@ -15,7 +15,7 @@ from raytruth.comparisons.sandboxes.confinement import Confinement
 from raytruth.comparisons.sandboxes.control_groups import control_groups
 from raytruth.comparisons.sandboxes.sandbox import SandboxError, is_root, kept_environment, missing_for
 from raytruth.comparisons.sandboxes.user_ids import give, reserved_user
-from raytruth.comparisons.sandboxes.visible_paths import PROCESSORS, SYSTEM, installed
+from raytruth.comparisons.sandboxes.visible_paths import PROCESSORS, SYSTEM, installed, without_hidden
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -50,6 +50,7 @@ def sandboxed_run(
     missing = missing_for(sandbox.rung)
     if missing is not None:
         raise SandboxError(f"there is no sandbox {sandbox.rung} here: {missing}")
+    system = without_hidden((path for path in SYSTEM if path.exists()), sandbox.hidden)
     visible = (*((path, path) for path in installed(extra.get("PATH", os.environ.get("PATH", "")))), *sandbox.visible)
     with ExitStack() as stack:
         user = stack.enter_context(reserved_user()) if is_root() else None
@@ -58,7 +59,7 @@ def sandboxed_run(
             stack.enter_context(_owned_by(user, folder))
         inside = sandbox.rung == "bubblewrap"
         yield SandboxedRun(
-            wrapped(command, folder, scratch, visible, user) if inside else _with_copies(command, sandbox),
+            wrapped(command, folder, scratch, system, visible, user) if inside else _with_copies(command, sandbox),
             {**kept_environment(os.environ, scratch.resolve()), **extra},
             Confinement(
                 groups=tuple(map(str, groups)),
@@ -66,7 +67,7 @@ def sandboxed_run(
                 processes=sandbox.processes + (0 if is_root() else _threads_of(os.getuid())),
                 landlock=sandbox.rung == "landlock",
                 listable=tuple(map(str, sandbox.listable)),
-                readable=tuple(map(str, (*SYSTEM, PROCESSORS, Path("/proc"), *(shown for _, shown in visible)))),
+                readable=tuple(map(str, (*system, PROCESSORS, Path("/proc"), *(shown for _, shown in visible)))),
                 writable=tuple(map(str, (folder.resolve(), *_DEVICES))),
             ),
         )

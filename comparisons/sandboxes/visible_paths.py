@@ -12,10 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 SYSTEM = tuple(
-    Path(name)
-    for name in ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/etc", "/opt", "/nix/store")
+    Path(name) for name in ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/etc", "/nix/store")
 )
-"""Programs, libraries and their settings. Where people keep what is their own (/home, /root, /srv, …) is not here."""
+"""Programs, libraries and their settings. Where people keep what is their own (/home, /srv, /opt, …) is not here."""
 
 PROCESSORS = Path("/sys/devices/system/cpu")
 """How many processors there are, which runtimes ask."""
@@ -37,6 +36,14 @@ def installed(search_path: str) -> tuple[Path, ...]:
             for place in (folder, *(target.parent for target in targets)):
                 found += _installation(place)
     return tuple(dict.fromkeys(path for path in found if not _is_of_the_system(path)))
+
+
+def installation_of(program: Path, search_path: str) -> tuple[Path, ...]:
+    """The folders of a program of the PATH that is a link to somewhere else, as /usr/bin/java may be one to /opt."""
+    target = program.resolve()
+    if str(program.parent) not in search_path.split(os.pathsep) or _is_of_the_system(target):
+        return ()
+    return tuple(_installation(target.parent))
 
 
 def own_files(named: Iterable[Path]) -> tuple[Path, ...]:

@@ -162,3 +162,17 @@ def test_an_interpreter_that_only_root_may_run_is_refused_before_any_scene(
         pass
     with in_sandbox(program, "bubblewrap", []) as confined:
         assert isinstance(confined.sandbox, Sandbox)
+
+
+@pytest.mark.parametrize("rung", ["bubblewrap", "landlock"])
+def test_what_is_hidden_among_the_systems_files_is_not_seen(rung: Rung, tmp_path: Path) -> None:
+    """A file that is there on every system stands for an assignment that lies in /etc or /usr/src."""
+    if why_not(rung):
+        return
+    rubric, beside = Path("/etc/passwd"), Path("/etc/group")
+    for hidden, expected in (([], 0), ([rubric], 1)):
+        folder = tmp_path / str(len(hidden))
+        folder.mkdir()
+        program = reader(folder, beside, rubric, fails=True)
+        with in_sandbox(program, rung, hidden) as confined:
+            assert submitted(confined, grey_scene()).problem.count("closed") == expected

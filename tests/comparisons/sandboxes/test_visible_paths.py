@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from raytruth.comparisons.sandboxes.visible_paths import installed, own_files, without_hidden
+from raytruth.comparisons.sandboxes.visible_paths import installation_of, installed, own_files, without_hidden
 
 pytestmark = pytest.mark.clause("SBX-3")
 
@@ -80,3 +80,12 @@ def test_programs_on_the_path_are_seen_with_what_belongs_to_them(home: Path, tmp
     assert found - set(installed("")) == expected
     ours = {Path(sys.prefix), Path(sys.base_prefix)}
     assert set(installed("")) == {path for path in ours if not path.resolve().is_relative_to("/usr")}
+
+
+def test_a_program_of_the_path_that_is_a_link_is_seen_with_what_it_leads_to(home: Path) -> None:
+    java = file(home.parent / "opt" / "jdk" / "bin" / "java")
+    (home / "links").mkdir()
+    (home / "links" / "java").symlink_to(java)
+    assert installation_of(home / "links" / "java", f"/usr/bin:{home / 'links'}") == (home.parent / "opt" / "jdk",)
+    assert installation_of(home / "links" / "java", "/usr/bin") == ()
+    assert installation_of(Path("/usr/bin/env"), "/usr/bin") == ()
