@@ -75,6 +75,8 @@ def unpack(path: Path, folder: Path, room: Room = SUBMISSION_ROOM, left_out: lis
             raise ArchiveError(f"{quoted(path.name)} is a link; hand in the files themselves.")
         if path.is_dir():
             unpacked.copy(path)
+        elif not path.is_file():
+            raise ArchiveError(f"{quoted(path.name)} is no file, but a device; hand in files.")
         elif not is_archive(path):
             unpacked.add(path.name, path.open("rb"))
         elif path.name.lower().endswith(".zip"):

@@ -50,6 +50,8 @@ def write_bundle(service: Service, assignment: Assignment, path: Path, out: Path
         copy = target / scene.relative_to(path.parent)
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(scene, copy)
+    for script in [it for it in out.rglob("*") if it.is_file() and it.read_bytes().startswith(b"#!")]:
+        script.chmod(0o755)
     written = sorted(it.relative_to(out) for it in out.rglob("*") if it.is_file())
     if service == "gradescope":
         shutil.make_archive(str(out.with_name(f".{out.name}")), "zip", out)

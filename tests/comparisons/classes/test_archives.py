@@ -113,6 +113,7 @@ def test_links_and_devices_in_folders_and_zip_files_are_refused(make: Callable[[
     folder.mkdir()
     make(folder / "a")
     assert "a link or a device" in refusal(folder)
+    assert "; hand in" in refusal(folder / "a")
     assert "a link or a device" in refusal(zipped(tmp_path / "a.zip", {"a": b"/etc"}, stat.S_IFLNK | 0o777))
 
 

@@ -45,6 +45,7 @@ def as_gradescope_runs_it(folder: Path, **environment: str) -> Any:
     with zipfile.ZipFile(folder / "bundle" / "autograder.zip") as archive:
         archive.extractall(root / "source")
     shutil.copy(root / "source" / "run_autograder", root)
+    assert os.access(folder / "bundle" / "run_autograder", os.X_OK)
     (root / "submission_metadata.json").write_text(json.dumps({"previous_submissions": [{}, {}]}))
     run_script(root / "run_autograder", root, AUTOGRADER=str(root), **environment)
     return json.loads((root / "results" / "results.json").read_text())
