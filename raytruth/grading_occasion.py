@@ -6,7 +6,6 @@ import secrets
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
-from raytruth.comparisons.grading.assignment_scenes import private_names
 from raytruth.comparisons.grading.grade import Occasion
 from raytruth.comparisons.grading.submission_metadata import (
     SEED_BYTES,
@@ -39,7 +38,7 @@ def occasion_of(
     assignment = _with_own_deadline(assignment, told)
     seed = _seed(assignment, seed, told)
     number = attempt or (told.attempt if told else 1)
-    return assignment, Occasion(stage, number, told_on, seed, private_names(assignment, seed))
+    return assignment, Occasion(stage, number, told_on, seed)
 
 
 def _metadata(path: Path | None) -> SubmissionMetadata | None:

@@ -39,9 +39,9 @@ def comparison_text(comparison: Comparison) -> str:
     count = comparison.agreed
     lines = []
     if comparison.divergence is None:
-        lines.append(f"All {count} {plural('ray', count)} are what a right tracer may have.")
+        lines.append(f"All rays ({count}) are what a right tracer may have.")
     else:
-        lines.append(f"{count} {plural('ray', count)} as they should be; then the first difference:")
+        lines.append(f"{count} {plural('ray', count)} as {'it' if count == 1 else 'they'} should be; then:")
         lines += _told(comparison.divergence)
     if comparison.open_paths:
         paths = ", ".join(f"'{path}'" for path in comparison.open_paths)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
+from raytruth.comparisons.grading.assignment_scenes import private_names
 from raytruth.comparisons.grading.credit import scene_credit, score_of, topic_points
 from raytruth.comparisons.grading.diagnosis import evidence_of
 from raytruth.comparisons.grading.explanation import diagnosis
@@ -43,9 +44,7 @@ class Occasion:
     date: datetime | None = None
     """When it was handed in, with its offset from UTC; None: before all dates of the assignment."""
     seed: int = 0
-    """What was added to the seeds of scenes that are drawn."""
-    private: frozenset[str] = frozenset()
-    """The names of scenes of which students are told after the deadline only."""
+    """What was added to the seeds of scenes that are drawn: by it private ones are told from others."""
 
 
 def grade_submission(
@@ -74,7 +73,8 @@ def grade_submission(
         if reading != AS_IT_IS:
             pictures = _reread(pictures, reading, assignment, declared, pool)
     tells_all = assignment.tells_private(occasion.date)
-    shown = [it for name, it in pictures.items() if tells_all or name not in occasion.private]
+    private = private_names(assignment, occasion.seed)
+    shown = [it for name, it in pictures.items() if tells_all or name not in private]
     explained = diagnose(shown, reading, declared, assignment, pool)
     return _record(assignment, occasion, program.name, names, pictures, failures, reading, explained, start)
 
@@ -150,7 +150,8 @@ def _scene_grades(
     failures: Mapping[str, str],
 ) -> tuple[SceneGrade, ...]:
     """All scenes in the order of their names, those that raytruth itself could not grade among them."""
-    scenes = [_scene_grade(it, assignment, is_private=name in occasion.private) for name, it in pictures.items()]
+    private = private_names(assignment, occasion.seed)
+    scenes = [_scene_grade(it, assignment, is_private=name in private) for name, it in pictures.items()]
     scenes += [
         SceneGrade(
             name=name,
@@ -158,7 +159,7 @@ def _scene_grades(
             verdict="grader_error",
             credit=0.0,
             reason=f"raytruth itself failed: {why}",
-            is_private=name in occasion.private,
+            is_private=name in private,
         )
         for name, why in failures.items()
     ]

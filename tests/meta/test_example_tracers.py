@@ -25,6 +25,7 @@ from raytruth.scenes.library import library_names, open_scene
 from raytruth.scenes.loading import load_scene
 from raytruth.scenes.requirements import required_features
 from tests.meta.example_tracers import LANGUAGES, ROOT, built, copies, needs
+from tests.raytruth.running import run
 from tests.reference_tracer.small_scenes import library_scene
 
 if TYPE_CHECKING:
@@ -129,6 +130,29 @@ def test_each_tracer_reads_meshes_from_the_files_that_scenes_name(copies: Path, 
     scene_file.write_text(json.dumps(stated), encoding="utf-8")
     shutil.copy(folder / "trefoil-knot.obj", tmp_path)
     assert judged(copies, language, library_scene("trefoil-knot"), scene_file).failing == 0
+
+
+TRACED_PIXELS = (("glass-sphere", "10,7"), ("tinted-glass", "10,7"), ("concave-mirror", "10,7"), ("two-lights", "9,9"))
+
+
+@pytest.mark.clause("GRD-9")
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_tracer_prints_right_rays(copies: Path, language: str, capsys: pytest.CaptureFixture[str]) -> None:
+    built(copies, language)
+    given = ["--renderer-file", str(copies / language / "tracer.toml")]
+    for scene, pixel in TRACED_PIXELS:
+        status, out, _ = run(capsys, "trace", scene, "--quick", "--pixel", pixel, *given)
+        assert status == 0, out
+
+
+@needs("cpp")
+@pytest.mark.clause("GRD-9")
+def test_rays_are_right_in_float32_and_with_an_epsilon(copies: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    built(copies, "cpp")
+    program = [str(copies / "cpp" / "tracer-float32-epsilon"), "{scene}", "{output}.pfm"]
+    for scene, pixel in TRACED_PIXELS:
+        status, out, _ = run(capsys, "trace", scene, "--quick", "--pixel", pixel, "--", *program)
+        assert status == 0, out
 
 
 # Names in two spellings of JSON, nulls, numbers in several forms, a polygon of an OBJ file, and no key that has a

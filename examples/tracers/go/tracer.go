@@ -1,20 +1,38 @@
 // A Whitted ray tracer, written to raytruth's docs/spec.md, whose clauses are named beside the lines they belong to.
 //
-//	tracer SCENE.json OUTPUT.pfm
+//	tracer SCENE.json OUTPUT.pfm                      the picture
+//	tracer SCENE.json OUTPUT.pfm --trace COLUMN ROW   the rays of one pixel, for `raytruth trace`
 package main
 
 import (
 	"bytes"
 	"encoding/binary"
+	"encoding/json"
 	"fmt"
 	"math"
 	"os"
+	"strconv"
 )
 
 // Ray is a half-line in a unit direction, and the primitive on whose surface it starts, or nil.
 type Ray struct {
 	origin, direction Vec
 	leaves            *Primitive
+	path              string // which mirrors (M), reflections (R) and refractions (T) of glass it has come by
+}
+
+var isTraced = len(os.Args) == 6 && os.Args[3] == "--trace"
+
+// note prints a ray and what came of it as a line of JSON, if the rays of a pixel are asked for.
+func (ray *Ray) note(told map[string]any) {
+	if !isTraced {
+		return
+	}
+	told["path"], told["origin"], told["direction"] = ray.path, ray.origin, ray.direction
+	line, err := json.Marshal(told)
+	if err == nil {
+		fmt.Println(string(line))
+	}
 }
 
 var far = math.Inf(1)
@@ -136,7 +154,7 @@ func (scene *Scene) litBy(light *Light, ray, reflected *Ray, normal Vec) Vec {
 		toLight, intensity = way.times(1/distance), light.Intensity.times(light.Falloff.at(distance))
 	}
 	cosine := normal.dot(toLight)
-	if cosine <= 0 || scene.isHidden(&Ray{reflected.origin, toLight, reflected.leaves}, distance) { // ILL-2
+	if cosine <= 0 || scene.isHidden(&Ray{reflected.origin, toLight, reflected.leaves, ""}, distance) { // ILL-2
 		return Vec{}
 	}
 	var weight Vec
@@ -160,7 +178,9 @@ func (scene *Scene) litBy(light *Light, ray, reflected *Ray, normal Vec) Vec {
 func (scene *Scene) radiance(ray *Ray, medium *Material, depth int) Vec {
 	distance, hit := scene.firstHit(ray)
 	if hit == nil {
-		return scene.background(ray.direction) // BG-3: not absorbed
+		seen := scene.background(ray.direction) // BG-3: not absorbed
+		ray.note(map[string]any{"distance": nil, "local": seen, "color": seen})
+		return seen
 	}
 	point := ray.origin.plus(ray.direction.times(distance))
 	normal := hit.normalAt(point)
@@ -169,7 +189,7 @@ func (scene *Scene) radiance(ray *Ray, medium *Material, depth int) Vec {
 		normal = normal.times(-1)
 	}
 	mirrorDirection := ray.direction.minus(normal.times(2 * ray.direction.dot(normal))) // REFL-1
-	reflected := &Ray{point, mirrorDirection, hit}
+	reflected := &Ray{point, mirrorDirection, hit, ray.path + "M"}
 
 	material := hit.material
 	var sum Vec
@@ -184,6 +204,7 @@ func (scene *Scene) radiance(ray *Ray, medium *Material, depth int) Vec {
 			sum = sum.plus(scene.litBy(&scene.Lights[i], ray, reflected, normal))
 		}
 	}
+	local := sum
 	if depth > 0 && material.Mirror != nil { // REFL-2
 		sum = sum.plus(material.Mirror.Reflectance.filteredBy(scene.radiance(reflected, medium, depth-1)))
 	}
@@ -195,6 +216,7 @@ func (scene *Scene) radiance(ray *Ray, medium *Material, depth int) Vec {
 			sum[i] *= math.Exp(-sigma * distance)
 		}
 	}
+	ray.note(map[string]any{"distance": distance, "normal": normal, "local": local, "color": sum})
 	return sum
 }
 
@@ -211,6 +233,7 @@ func (scene *Scene) through(ray, reflected *Ray, normal Vec, enters bool, medium
 	}
 	c := -ray.direction.dot(normal)
 	gSquared := eta*eta - 1 + c*c // REFR-2
+	reflected.path = ray.path + "R"
 	mirrored := scene.radiance(reflected, medium, depth-1)
 	if gSquared < 0 { // REFR-5, REFR-6
 		if glass.Reflectance != nil {
@@ -227,7 +250,7 @@ func (scene *Scene) through(ray, reflected *Ray, normal Vec, enters bool, medium
 		scale = 1 / (eta * eta)
 	}
 	direction := ray.direction.plus(normal.times(c - g)).times(1 / eta) // REFR-3
-	behind := scene.radiance(&Ray{reflected.origin, direction, reflected.leaves}, beyond, depth-1)
+	behind := scene.radiance(&Ray{reflected.origin, direction, reflected.leaves, ray.path + "T"}, beyond, depth-1)
 	if glass.Reflectance != nil { // REFR-6
 		return mirrored.filteredBy(*glass.Reflectance).plus(behind.filteredBy(*glass.Transmittance))
 	}
@@ -240,9 +263,9 @@ func (camera *Camera) ray(column, row int) *Ray {
 	y := (float64(row) + 0.5 - float64(camera.Height)/2) * camera.pixel
 	across := camera.right.times(x).plus(camera.down.times(y))
 	if camera.Projection == "perspective" {
-		return &Ray{camera.Position, camera.forward.plus(across).unit(), nil}
+		return &Ray{camera.Position, camera.forward.plus(across).unit(), nil, ""}
 	}
-	return &Ray{camera.Position.plus(across), camera.forward, nil}
+	return &Ray{camera.Position.plus(across), camera.forward, nil, ""}
 }
 
 func render(sceneFile, output string) error {
@@ -251,6 +274,9 @@ func render(sceneFile, output string) error {
 		return err
 	}
 	camera := &scene.Camera
+	if isTraced {
+		return trace(scene, os.Args[4], os.Args[5])
+	}
 	var file bytes.Buffer
 	fmt.Fprintf(&file, "PF\n%d %d\n-1.0\n", camera.Width, camera.Height) // the minus says little endian
 	for row := camera.Height - 1; row >= 0; row-- {                      // a PFM begins with the bottom row
@@ -265,9 +291,22 @@ func render(sceneFile, output string) error {
 	return os.WriteFile(output, file.Bytes(), 0o644)
 }
 
+func trace(scene *Scene, column, row string) error {
+	x, err := strconv.Atoi(column)
+	if err != nil {
+		return err
+	}
+	y, err := strconv.Atoi(row)
+	if err != nil {
+		return err
+	}
+	scene.radiance(scene.Camera.ray(x, y), scene.named(scene.Camera.Inside), scene.MaxDepth)
+	return nil
+}
+
 func main() {
-	if len(os.Args) != 3 {
-		fmt.Fprintln(os.Stderr, "usage: tracer SCENE.json OUTPUT.pfm")
+	if len(os.Args) != 3 && !isTraced {
+		fmt.Fprintln(os.Stderr, "usage: tracer SCENE.json OUTPUT.pfm [--trace COLUMN ROW]")
 		os.Exit(2)
 	}
 	if err := render(os.Args[1], os.Args[2]); err != nil {

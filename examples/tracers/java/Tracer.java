@@ -8,11 +8,18 @@ import java.nio.file.Path;
 /**
  * A Whitted ray tracer, written to raytruth's docs/spec.md, whose clauses are named beside the lines they belong to.
  *
- * <p>java Tracer SCENE.json OUTPUT.pfm
+ * <p>java Tracer SCENE.json OUTPUT.pfm, or with --trace COLUMN ROW behind it the rays of one pixel, for `raytruth trace`
  */
 final class Tracer {
-    /** A half-line in a unit direction, and the primitive on whose surface it starts, or null. */
-    record Ray(Scene.Vec origin, Scene.Vec direction, Scene.Primitive leaves) {}
+    /**
+     * A half-line in a unit direction, the primitive on whose surface it starts, or null, and which mirrors (M),
+     * reflections (R) and refractions (T) of glass it has come by.
+     */
+    record Ray(Scene.Vec origin, Scene.Vec direction, Scene.Primitive leaves, String path) {
+        Ray by(char way) {
+            return new Ray(origin, direction, leaves, path + way);
+        }
+    }
 
     /** The nearest hit; its primitive is null where nothing is hit. */
     record Hit(double distance, Scene.Primitive primitive) {
@@ -23,9 +30,26 @@ final class Tracer {
 
     private static final double FAR = Double.POSITIVE_INFINITY;
     private final Scene scene;
+    private final boolean isTraced;
 
-    private Tracer(Scene scene) {
+    private Tracer(Scene scene, boolean isTraced) {
         this.scene = scene;
+        this.isTraced = isTraced;
+    }
+
+    /** Print a ray and what came of it as a line of JSON, if the rays of a pixel are asked for. */
+    private Scene.Vec noted(Ray ray, Hit hit, Scene.Vec normal, Scene.Vec local, Scene.Vec color) {
+        if (isTraced)
+            System.out.printf("{\"path\": \"%s\", \"origin\": %s, \"direction\": %s, \"local\": %s, \"color\": %s%s}%n",
+                ray.path, json(ray.origin), json(ray.direction), json(local), json(color),
+                hit.primitive == null
+                    ? ", \"distance\": null"
+                    : ", \"distance\": " + hit.distance + ", \"normal\": " + json(normal));
+        return color;
+    }
+
+    private static String json(Scene.Vec v) {
+        return "[" + v.x() + ", " + v.y() + ", " + v.z() + "]";
     }
 
     /** The distance to the sphere, or infinity. Textbook quadratic: t² + 2bt + c = 0. */
@@ -100,7 +124,7 @@ final class Tracer {
         if (distance == 0) return Scene.Vec.BLACK; // ILL-9
         Scene.Vec toLight = isDirectional ? way : way.times(1 / distance);
         double cosine = normal.dot(toLight);
-        if (cosine <= 0 || isHidden(new Ray(point, toLight, reflected.leaves), distance)) return Scene.Vec.BLACK; // ILL-2
+        if (cosine <= 0 || isHidden(new Ray(point, toLight, reflected.leaves, ""), distance)) return Scene.Vec.BLACK; // ILL-2
         Scene.Vec weight = Scene.Vec.BLACK;
         if (material.diffuse() != null) // ILL-2, ILL-3
             weight = material.diffuse().at(point).times(scene.isRadiometric ? cosine / Math.PI : cosine);
@@ -117,13 +141,16 @@ final class Tracer {
     /** The light that comes back along a ray which has `depth` reflections and refractions left. TREE. */
     private Scene.Vec radiance(Ray ray, Scene.Material medium, int depth) {
         Hit hit = firstHit(ray, FAR);
-        if (hit.primitive == null) return background(ray.direction); // BG-3: not absorbed
+        if (hit.primitive == null) {
+            Scene.Vec seen = background(ray.direction); // BG-3: not absorbed
+            return noted(ray, hit, null, seen, seen);
+        }
         Scene.Vec point = ray.origin.plus(ray.direction.times(hit.distance));
         Scene.Vec normal = hit.primitive.normalAt(point);
         boolean enters = ray.direction.dot(normal) < 0; // ILL-1
         if (!enters) normal = normal.times(-1);
         Scene.Vec mirrorDirection = ray.direction.minus(normal.times(2 * ray.direction.dot(normal))); // REFL-1
-        Ray reflected = new Ray(point, mirrorDirection, hit.primitive);
+        Ray reflected = new Ray(point, mirrorDirection, hit.primitive, ray.path);
 
         Scene.Material material = hit.primitive.material();
         Scene.Vec sum = Scene.Vec.BLACK;
@@ -131,14 +158,17 @@ final class Tracer {
         if (material.ambient() != null) sum = sum.plus(material.ambient().times(scene.ambientLight));
         if (material.diffuse() != null || material.specular() != null)
             for (Scene.Light light : scene.lights) sum = sum.plus(litBy(light, ray, reflected, normal));
+        Scene.Vec local = sum;
         if (depth > 0 && material.mirror() != null) // REFL-2
-            sum = sum.plus(material.mirror().times(radiance(reflected, medium, depth - 1)));
+            sum = sum.plus(material.mirror().times(radiance(reflected.by('M'), medium, depth - 1)));
         if (depth > 0 && material.dielectric() != null)
             sum = sum.plus(through(ray, reflected, normal, enters, medium, depth));
 
-        if (medium == null || medium.dielectric().absorption() == null) return sum;
-        Scene.Vec sigma = medium.dielectric().absorption().times(-hit.distance); // REFR-7
-        return sum.times(new Scene.Vec(Math.exp(sigma.x()), Math.exp(sigma.y()), Math.exp(sigma.z())));
+        if (medium != null && medium.dielectric().absorption() != null) {
+            Scene.Vec sigma = medium.dielectric().absorption().times(-hit.distance); // REFR-7
+            sum = sum.times(new Scene.Vec(Math.exp(sigma.x()), Math.exp(sigma.y()), Math.exp(sigma.z())));
+        }
+        return noted(ray, hit, normal, local, sum);
     }
 
     /** What a dielectric reflects and refracts. The normal is turned to the ray's origin. REFR. */
@@ -150,14 +180,14 @@ final class Tracer {
         double eta = enters ? glass.index() / outer : outer / glass.index(); // REFR-1
         double c = -ray.direction.dot(normal);
         double gSquared = eta * eta - 1 + c * c; // REFR-2
-        Scene.Vec mirrored = radiance(reflected, medium, depth - 1);
+        Scene.Vec mirrored = radiance(reflected.by('R'), medium, depth - 1);
         if (gSquared < 0) return glass.reflectance() == null ? mirrored : mirrored.times(glass.reflectance()); // REFR-5, 6
         double g = Math.sqrt(gSquared);
         double rS = (c - g) / (c + g), rP = (eta * eta * c - g) / (eta * eta * c + g);
         double fresnel = c > 0 ? (rS * rS + rP * rP) / 2 : 1; // REFR-4
         double transmitted = scene.isRadiometric ? (1 - fresnel) / (eta * eta) : 1 - fresnel;
         Scene.Vec direction = ray.direction.plus(normal.times(c - g)).times(1 / eta); // REFR-3
-        Ray refracted = new Ray(reflected.origin, direction, reflected.leaves);
+        Ray refracted = new Ray(reflected.origin, direction, reflected.leaves, ray.path + "T");
         Scene.Vec behind = radiance(refracted, enters ? material : outside, depth - 1); // REFR-9
         if (glass.reflectance() != null) // REFR-6
             return mirrored.times(glass.reflectance()).plus(behind.times(glass.transmittance()));
@@ -170,17 +200,23 @@ final class Tracer {
         double x = (column + 0.5 - camera.width() / 2.0) * camera.pixel();
         double y = (row + 0.5 - camera.height() / 2.0) * camera.pixel();
         Scene.Vec across = camera.right().times(x).plus(camera.down().times(y));
-        if (camera.isPerspective()) return new Ray(camera.position(), camera.forward().plus(across).unit(), null);
-        return new Ray(camera.position().plus(across), camera.forward(), null);
+        if (camera.isPerspective()) return new Ray(camera.position(), camera.forward().plus(across).unit(), null, "");
+        return new Ray(camera.position().plus(across), camera.forward(), null, "");
     }
 
     public static void main(String[] arguments) throws IOException {
-        if (arguments.length != 2) {
-            System.err.println("usage: java Tracer SCENE.json OUTPUT.pfm");
+        boolean isTraced = arguments.length == 5 && arguments[2].equals("--trace");
+        if (arguments.length != 2 && !isTraced) {
+            System.err.println("usage: java Tracer SCENE.json OUTPUT.pfm [--trace COLUMN ROW]");
             System.exit(2);
         }
         Scene scene = new Scene(Path.of(arguments[0]));
-        Tracer tracer = new Tracer(scene);
+        Tracer tracer = new Tracer(scene, isTraced);
+        if (isTraced) {
+            Ray ray = tracer.cameraRay(Integer.parseInt(arguments[3]), Integer.parseInt(arguments[4]));
+            tracer.radiance(ray, scene.camera.inside(), scene.maxDepth);
+            return;
+        }
         int width = scene.camera.width(), height = scene.camera.height();
         byte[] header = ("PF\n" + width + " " + height + "\n-1.0\n").getBytes(StandardCharsets.US_ASCII);
         ByteBuffer file = ByteBuffer.allocate(header.length + 12 * width * height).order(ByteOrder.LITTLE_ENDIAN);

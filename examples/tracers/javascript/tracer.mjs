@@ -1,10 +1,20 @@
 // A Whitted ray tracer, written to raytruth's docs/spec.md, whose clauses are named beside the lines they belong to.
 //
-//     node tracer.mjs SCENE.json OUTPUT.pfm
+//     node tracer.mjs SCENE.json OUTPUT.pfm                      the picture
+//     node tracer.mjs SCENE.json OUTPUT.pfm --trace COLUMN ROW   the rays of one pixel, for `raytruth trace`
 import { writeFileSync } from "node:fs";
 import { add, cross, dot, length, load, multiply, scale, subtract, unit } from "./scene.mjs";
 
-// A ray has an origin, a unit direction, and the primitive that it `leaves`, if it starts on one.
+// A ray has an origin, a unit direction, the primitive that it `leaves`, if it starts on one, and a `path`: which mirrors
+// (M), reflections (R) and refractions (T) of glass it has come by.
+
+const [sceneFile, output, trace, traceColumn, traceRow] = process.argv.slice(2);
+
+// Prints a ray and what came of it as a line of JSON, if the rays of a pixel are asked for.
+function note(ray, told) {
+  const { path, origin, direction } = ray;
+  if (trace) console.log(JSON.stringify({ path, origin, direction, ...told }));
+}
 
 // The distance to the sphere, or infinity. Textbook quadratic: t² + 2bt + c = 0.
 function meetSphere(ray, sphere) {
@@ -99,14 +109,18 @@ function litBy(scene, light, ray, reflected, normal, material) {
 // The light that comes back along a ray which has `depth` reflections and refractions left. TREE.
 function radiance(scene, ray, medium, depth) {
   const { distance, primitive } = firstHit(scene, ray);
-  if (!primitive) return background(scene, ray.direction); // BG-3: not absorbed
+  if (!primitive) {
+    const seen = background(scene, ray.direction); // BG-3: not absorbed
+    note(ray, { distance: null, local: seen, color: seen });
+    return seen;
+  }
   const point = add(ray.origin, scale(distance, ray.direction));
   const isSphere = "radius" in primitive;
   let normal = isSphere ? unit(subtract(point, primitive.center)) : primitive.normal; // SPH-5
   const enters = dot(ray.direction, normal) < 0; // ILL-1
   if (!enters) normal = scale(-1, normal);
   const mirrorDirection = subtract(ray.direction, scale(2 * dot(ray.direction, normal), normal)); // REFL-1
-  const reflected = { origin: point, direction: mirrorDirection, leaves: primitive };
+  const reflected = { origin: point, direction: mirrorDirection, leaves: primitive, path: `${ray.path}M` };
 
   const { ambient, diffuse, specular, emission, mirror, dielectric } = primitive.material;
   let sum = [0, 0, 0];
@@ -114,11 +128,14 @@ function radiance(scene, ray, medium, depth) {
   if (ambient) sum = add(sum, multiply(ambient, scene.ambientLight));
   if (diffuse || specular)
     for (const light of scene.lights) sum = add(sum, litBy(scene, light, ray, reflected, normal, primitive.material));
+  const local = sum;
   if (depth > 0 && mirror) sum = add(sum, multiply(mirror, radiance(scene, reflected, medium, depth - 1))); // REFL-2
   if (depth > 0 && dielectric) sum = add(sum, through(scene, ray, reflected, normal, enters, medium, depth));
 
   const sigma = medium?.dielectric.absorption;
-  return sigma ? sum.map((channel, i) => channel * Math.exp(-sigma[i] * distance)) : sum; // REFR-7
+  if (sigma) sum = sum.map((channel, i) => channel * Math.exp(-sigma[i] * distance)); // REFR-7
+  note(ray, { distance, normal, local, color: sum });
+  return sum;
 }
 
 // What a dielectric reflects and refracts. The normal is turned to the ray's origin. REFR.
@@ -129,7 +146,7 @@ function through(scene, ray, reflected, normal, enters, medium, depth) {
   const eta = enters ? glass.index_of_refraction / outer : outer / glass.index_of_refraction; // REFR-1
   const c = -dot(ray.direction, normal);
   const gSquared = eta * eta - 1 + c * c; // REFR-2
-  const mirrored = radiance(scene, reflected, medium, depth - 1);
+  const mirrored = radiance(scene, { ...reflected, path: `${ray.path}R` }, medium, depth - 1);
   if (gSquared < 0) return glass.reflectance ? multiply(glass.reflectance, mirrored) : mirrored; // REFR-5, REFR-6
   const g = Math.sqrt(gSquared);
   const rS = (c - g) / (c + g);
@@ -137,7 +154,7 @@ function through(scene, ray, reflected, normal, enters, medium, depth) {
   const fresnel = c > 0 ? (rS * rS + rP * rP) / 2 : 1; // REFR-4
   const transmitted = scene.isRadiometric ? (1 - fresnel) / (eta * eta) : 1 - fresnel;
   const direction = scale(1 / eta, add(ray.direction, scale(c - g, normal))); // REFR-3
-  const refracted = { origin: reflected.origin, direction, leaves: reflected.leaves };
+  const refracted = { origin: reflected.origin, direction, leaves: reflected.leaves, path: `${ray.path}T` };
   const behind = radiance(scene, refracted, enters ? material : glass.outside, depth - 1); // REFR-9
   return add(
     multiply(glass.reflectance ?? [fresnel, fresnel, fresnel], mirrored), // REFR-6
@@ -150,13 +167,17 @@ function cameraRay(camera, column, row) {
   const x = (column + 0.5 - camera.width / 2) * camera.pixel;
   const y = (row + 0.5 - camera.height / 2) * camera.pixel;
   const across = add(scale(x, camera.right), scale(y, camera.down));
-  if (camera.isPerspective) return { origin: camera.position, direction: unit(add(camera.forward, across)) };
-  return { origin: add(camera.position, across), direction: camera.forward };
+  if (camera.isPerspective) return { origin: camera.position, direction: unit(add(camera.forward, across)), path: "" };
+  return { origin: add(camera.position, across), direction: camera.forward, path: "" };
 }
 
-function main(sceneFile, output) {
+function main() {
   const scene = load(sceneFile);
   const { width, height, inside } = scene.camera;
+  if (trace) {
+    radiance(scene, cameraRay(scene.camera, Number(traceColumn), Number(traceRow)), inside, scene.maxDepth);
+    return;
+  }
   const header = Buffer.from(`PF\n${width} ${height}\n-1.0\n`); // the minus says little endian
   const file = Buffer.alloc(header.length + 12 * width * height);
   let end = header.copy(file);
@@ -167,8 +188,8 @@ function main(sceneFile, output) {
   writeFileSync(output, file);
 }
 
-if (process.argv.length !== 4) {
-  console.error("usage: node tracer.mjs SCENE.json OUTPUT.pfm");
+if (process.argv.length !== (trace === "--trace" ? 7 : 4)) {
+  console.error("usage: node tracer.mjs SCENE.json OUTPUT.pfm [--trace COLUMN ROW]");
   process.exit(2);
 }
-main(process.argv[2], process.argv[3]);
+main();

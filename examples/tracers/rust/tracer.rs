@@ -1,6 +1,7 @@
 //! A Whitted ray tracer, written to raytruth's docs/spec.md, whose clauses are named beside the lines they belong to.
 //!
-//!     tracer SCENE.json OUTPUT.pfm
+//!     tracer SCENE.json OUTPUT.pfm                      the picture
+//!     tracer SCENE.json OUTPUT.pfm --trace COLUMN ROW   the rays of one pixel, for `raytruth trace`
 
 mod json;
 mod scene;
@@ -14,6 +15,28 @@ struct Ray {
     origin: Vec3,
     direction: Vec3,
     leaves: Option<usize>,
+    path: Option<String>, // of a pixel's rays that are traced: which mirrors (M), reflections (R) and refractions (T)
+}
+
+impl Ray {
+    /// The path of a ray that goes on from this one.
+    fn then(&self, way: char) -> Option<String> {
+        self.path.as_ref().map(|path| format!("{path}{way}"))
+    }
+
+    /// Print the ray and what came of it as a line of JSON, if it is traced.
+    fn note(&self, hit: Option<(f64, usize, Vec3)>, local: Vec3, color: Vec3) {
+        let Some(path) = &self.path else { return };
+        let rays = format!("\"origin\": {:?}, \"direction\": {:?}", self.origin.0, self.direction.0);
+        let colors = format!("\"local\": {:?}, \"color\": {:?}", local.0, color.0);
+        let end = match hit {
+            Some((distance, number, normal)) => {
+                format!("\"distance\": {distance:?}, \"primitive\": {number}, \"normal\": {:?}", normal.0)
+            }
+            None => "\"distance\": null, \"primitive\": null".to_string(),
+        };
+        println!("{{\"path\": \"{path}\", {rays}, {colors}, {end}}}");
+    }
 }
 
 /// The distance to a primitive, or infinity.
@@ -114,7 +137,7 @@ impl Scene {
             }
         };
         let cosine = normal.dot(to_light);
-        let shadow_ray = Ray { origin: point, direction: to_light, leaves: reflected.leaves };
+        let shadow_ray = Ray { origin: point, direction: to_light, leaves: reflected.leaves, path: None };
         if cosine <= 0.0 || self.is_hidden(&shadow_ray, distance) {
             return Vec3::default(); // ILL-2
         }
@@ -136,7 +159,9 @@ impl Scene {
     /// The light that comes back along a ray which has `depth` reflections and refractions left. TREE.
     fn radiance(&self, ray: &Ray, medium: Option<usize>, depth: usize) -> Vec3 {
         let Some((distance, number)) = self.first_hit(ray) else {
-            return self.background(ray.direction); // BG-3: not absorbed
+            let seen = self.background(ray.direction); // BG-3: not absorbed
+            ray.note(None, seen, seen);
+            return seen;
         };
         let primitive = &self.primitives[number];
         let point = ray.origin + distance * ray.direction;
@@ -147,7 +172,7 @@ impl Scene {
         let enters = ray.direction.dot(own_normal) < 0.0; // ILL-1
         let normal = if enters { own_normal } else { -own_normal };
         let mirror_direction = ray.direction - 2.0 * ray.direction.dot(normal) * normal; // REFL-1
-        let reflected = Ray { origin: point, direction: mirror_direction, leaves: Some(number) };
+        let reflected = Ray { origin: point, direction: mirror_direction, leaves: Some(number), path: ray.then('M') };
 
         let material = &self.materials[primitive.material];
         let mut sum = Vec3::default();
@@ -162,6 +187,7 @@ impl Scene {
                 sum = sum + self.lit_by(light, ray, &reflected, normal, number);
             }
         }
+        let local = sum;
         if depth > 0 {
             if let Some(mirror) = material.mirror {
                 sum = sum + mirror * self.radiance(&reflected, medium, depth - 1); // REFL-2
@@ -170,10 +196,11 @@ impl Scene {
                 sum = sum + self.through(ray, &reflected, normal, enters, medium, depth, primitive.material);
             }
         }
-        match medium.and_then(|number| self.materials[number].dielectric.as_ref()?.absorption) {
-            Some(sigma) => sum * sigma.map(|sigma| (-sigma * distance).exp()), // REFR-7
-            None => sum,
+        if let Some(sigma) = medium.and_then(|number| self.materials[number].dielectric.as_ref()?.absorption) {
+            sum = sum * sigma.map(|sigma| (-sigma * distance).exp()); // REFR-7
         }
+        ray.note(Some((distance, number, normal)), local, sum);
+        sum
     }
 
     /// What a dielectric, of material `number`, reflects and refracts. The normal is turned to the ray's origin. REFR.
@@ -186,7 +213,8 @@ impl Scene {
         let eta = if enters { glass.index / outer } else { outer / glass.index }; // REFR-1
         let c = -ray.direction.dot(normal);
         let g_squared = eta * eta - 1.0 + c * c; // REFR-2
-        let mirrored = self.radiance(reflected, medium, depth - 1);
+        let Ray { origin, direction, leaves, .. } = *reflected;
+        let mirrored = self.radiance(&Ray { origin, direction, leaves, path: ray.then('R') }, medium, depth - 1);
         if g_squared < 0.0 {
             return glass.reflectance.map_or(mirrored, |reflectance| reflectance * mirrored); // REFR-5, REFR-6
         }
@@ -195,7 +223,7 @@ impl Scene {
         let fresnel = if c > 0.0 { (r_s * r_s + r_p * r_p) / 2.0 } else { 1.0 }; // REFR-4
         let transmitted = if self.is_radiometric { (1.0 - fresnel) / (eta * eta) } else { 1.0 - fresnel };
         let direction = (ray.direction + (c - g) * normal) / eta; // REFR-3
-        let refracted = Ray { origin: reflected.origin, direction, leaves: reflected.leaves };
+        let refracted = Ray { origin, direction, leaves, path: ray.then('T') };
         let beyond = if enters { Some(number) } else { glass.outside }; // REFR-9
         let behind = self.radiance(&refracted, beyond, depth - 1);
         glass.reflectance.unwrap_or(Vec3([fresnel; 3])) * mirrored
@@ -216,20 +244,32 @@ fn camera_ray(camera: &Camera, column: usize, row: usize) -> Ray {
     let y = (row as f64 + 0.5 - camera.height as f64 / 2.0) * camera.pixel;
     let across = x * camera.right + y * camera.down;
     if camera.is_perspective {
-        Ray { origin: camera.position, direction: (camera.forward + across).unit(), leaves: None }
+        Ray { origin: camera.position, direction: (camera.forward + across).unit(), leaves: None, path: None }
     } else {
-        Ray { origin: camera.position + across, direction: camera.forward, leaves: None }
+        Ray { origin: camera.position + across, direction: camera.forward, leaves: None, path: None }
     }
+}
+
+fn usage() -> ! {
+    eprintln!("usage: tracer SCENE.json OUTPUT.pfm [--trace COLUMN ROW]");
+    std::process::exit(2);
 }
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
-    let [_, scene_file, output] = arguments.as_slice() else {
-        eprintln!("usage: tracer SCENE.json OUTPUT.pfm");
-        std::process::exit(2);
-    };
+    let [_, scene_file, output, trace @ ..] = arguments.as_slice() else { usage() };
     let scene = scene::load(scene_file.as_ref());
     let camera = &scene.camera;
+    match trace {
+        [] => (),
+        [option, column, row] if option == "--trace" => {
+            let [column, row] = [column, row].map(|text| text.parse().unwrap_or_else(|_| usage()));
+            let ray = Ray { path: Some(String::new()), ..camera_ray(camera, column, row) };
+            scene.radiance(&ray, camera.inside, scene.max_depth);
+            return;
+        }
+        _ => usage(),
+    }
     let mut file = format!("PF\n{} {}\n-1.0\n", camera.width, camera.height).into_bytes(); // minus: little endian
     for row in (0..camera.height).rev() {
         // a PFM begins with the bottom row
