@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 LINKED_WORK = 2**16
 # What the tape counts takes 10 to 50 ns, and of the same pixel it counts 1 to 3 times as much.
 TAPE_WORK = 2**20
-# To compile a kernel takes as long as so many pixels do in Arb's linked balls: 0.8 to 1.2 s, and 10 to 40 ms a pixel.
-# Where fewer are asked for, they are Arb's.
+# To compile a kernel takes 1.5 s, once for all scenes, and to load one that is kept 0.15 s: as long as some ten pixels
+# take in Arb's linked balls, of 5 to 40 ms each. Where fewer than a few times as many are asked for, they are Arb's.
 WORTH_COMPILING = 32
 # The tape computes with 53 bits beside the renderer's roundings, and an operation loses fewer than eight roundings of
 # its own: so its radii are at most 8/2^8 larger, and those of Arb, which has 32 bits more, are better above.

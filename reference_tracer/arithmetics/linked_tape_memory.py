@@ -22,12 +22,13 @@ if TYPE_CHECKING:
 
     from raytruth.reference_tracer.compiler.types import Type
 
-# A ray of the library makes 5,000 numbers at most. The system gives memory only as it is touched.
-MOST_NUMBERS = 2**18
-# Each bounce adds seven symbols: six coordinates' and a distance's.
+# In the library a ray makes 5,000 numbers at most besides the constants, and a pixel keeps 300 rows with 14,000 slopes.
+# What there is room for takes some 30 megabytes, of which the system gives only what is used.
+MOST_NUMBERS = 2**16
+MOST_ROWS = 2**15
+MOST_ROW_SLOPES = 2**21
+# The camera's rays have 21, and each bounce adds seven: six coordinates' and a distance's. A scene has 64 at most.
 MOST_SYMBOLS = 512
-MOST_ROWS = 2**18
-MOST_ROW_SLOPES = 2**24
 
 FLOAT, INTEGER = Float(64), Integer()
 BALL = Tuple((FLOAT, FLOAT), Ball._fields, Ball.__name__)

@@ -217,8 +217,8 @@ def assert_as_narrow(ball: Ball, expected: Any, ranges: list[Ball]) -> None:
 def test_operations_hold_the_values_at_infinities_denormals_zeros_and_nan(name: str) -> None:
     ctx.prec = SUMS_BITS
     tape = Tape(ROUNDOFF)
-    for a in SPECIAL_BALLS:
-        for b in SPECIAL_BALLS if name in OF_TWO else SPECIAL_BALLS[:1]:
+    for place, a in enumerate(SPECIAL_BALLS):
+        for b in SPECIAL_BALLS[place % 4 :: 4] if name in OF_TWO else SPECIAL_BALLS[:1]:
             tape.forget()
             start = tape.put(a), tape.put(b)
             holding = tape.range(tape.operate(name, *start))
