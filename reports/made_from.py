@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
+from raytruth.comparisons.records.kill_results import KILLS_FILE
 from raytruth.comparisons.records.results import RESULTS_FILE
 from raytruth.reports.kills import PAGE_FILE
 
@@ -16,10 +17,12 @@ _HEAD_BYTES = 4096
 def made_from(directory: Path) -> str:
     """A digest of all that a report is made from.
 
-    That are results.json, whether there is a kill matrix, the cells' files by names, sizes and times, and our own code.
+    That are results.json, the kill matrix, the cells' files by names, sizes and times, and our own code.
     """
     digest = hashlib.sha256((directory / RESULTS_FILE).read_bytes())
     digest.update(str((directory / PAGE_FILE).exists()).encode())
+    if (directory / KILLS_FILE).is_file():
+        digest.update((directory / KILLS_FILE).read_bytes())
     for path in sorted((directory / "cells").rglob("*")):
         status = path.stat()
         digest.update(f"{path.relative_to(directory)} {status.st_size} {status.st_mtime_ns}\n".encode())
