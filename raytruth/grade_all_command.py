@@ -23,7 +23,7 @@ from raytruth.comparisons.classes.likeness import likenesses
 from raytruth.comparisons.classes.workers import ClusterError, cluster_workers, local_workers
 from raytruth.comparisons.grading.assignment import Assignment
 from raytruth.comparisons.grading.assignment_file import STARTING
-from raytruth.comparisons.grading.assignment_scenes import private_names, scenes_of
+from raytruth.comparisons.grading.assignment_scenes import scenes_of
 from raytruth.comparisons.grading.feedback import for_student
 from raytruth.comparisons.grading.grade import Occasion
 from raytruth.comparisons.records.class_results import CLASS_FILE, STUDENTS_FOLDER, ClassResults, Service
@@ -137,7 +137,7 @@ def grade_all(
         found = submissions_in(folder)
         if not found:
             raise UsageError(f"{submissions}: expected a folder or an archive for each student, found none.")
-        occasion = Occasion(stage, attempt, datetime.now(UTC), seed, private_names(opened, seed))
+        occasion = Occasion(stage, attempt, datetime.now(UTC), seed)
         hidden = (folder, submissions, out, path, cache_folder())
         plan = plan_of(
             found, out, opened, topics, occasion, sandbox=sandbox, hidden=hidden, regrade=regrade, fresh=fresh

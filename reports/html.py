@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from raytruth.reference_tracer.storage.whole_files import write_whole
 from raytruth.reports import pages
 from raytruth.reports.changes import changes
-from raytruth.reports.kills import PAGE_FILE
+from raytruth.reports.kills import PAGE_FILE, clauses_by_scene
 from raytruth.reports.loading import ReportError, load_results
 from raytruth.reports.made_from import is_made_from, made_from
 from raytruth.reports.parts import FOLDER, Parts
@@ -92,6 +92,7 @@ def _write_pages(directory: Path, results: Results, earlier: Results | None, fol
 def _told_beside(directory: Path, results: Results, earlier: Results | None) -> dict[str, object]:
     return {
         "source": "",
+        "clauses": clauses_by_scene(directory),
         "kills_page": PAGE_FILE if (directory / PAGE_FILE).exists() else None,
         "changes": None if earlier is None else changes(earlier, results),
         "earlier": None if earlier is None else earlier.created,

@@ -97,6 +97,22 @@ def shade(value: float | None) -> int:
     return step
 
 
+def clauses_by_scene(directory: Path) -> dict[str, tuple[str, ...]]:
+    """The clauses of the specification of which each scene finds a fault, as the kill matrix beside the results says.
+
+    {} where there is none, or it is damaged: then its own command tells.
+    """
+    try:
+        faults = read_kill_results(directory).faults
+    except (OSError, ValueError):
+        return {}
+    clauses: dict[str, set[str]] = {}
+    for fault in faults:
+        for scene in fault.killed_by:
+            clauses.setdefault(scene, set()).add(fault.clause)
+    return {scene: tuple(sorted(found)) for scene, found in clauses.items()}
+
+
 def write_kill_report(directory: Path) -> Path:
     """Write `faults.html` into a results directory that has `faults.json`, whole or not at all; returns its path."""
     results = read_kill_results(directory)

@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from raytruth.comparisons.records.kill_results import KILLS_FILE
 from raytruth.comparisons.records.results import RESULTS_FILE
 from raytruth.reports.kills import PAGE_FILE
 
@@ -21,10 +22,12 @@ _HEAD_BYTES = 4096
 def made_from(directory: Path) -> str:
     """A digest of all that a report is made from.
 
-    That are results.json, whether there is a kill matrix, the cells' files by names, sizes and times, and our own code.
+    That are results.json, the kill matrix, the cells' files by names, sizes and times, and our own code.
     """
     digest = hashlib.sha256((directory / RESULTS_FILE).read_bytes())
     digest.update(str((directory / PAGE_FILE).exists()).encode())
+    if (directory / KILLS_FILE).is_file():
+        digest.update((directory / KILLS_FILE).read_bytes())
     for path in sorted(_finished_files(directory / "cells")):
         try:
             status = path.stat()

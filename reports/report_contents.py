@@ -102,7 +102,9 @@ def scene_views(directory: Path, results: Results, parts: Parts) -> Iterator[Sce
         for shown in view.cells_there:
             if shown.viewer is not None:
                 others = {name: names["render"] for name, names in arrays.items() if name != shown.name}
-                shown.viewer["others"] = [{"name": wording.printable(name), "arrays": render} for name, render in others.items()]
+                shown.viewer["others"] = [
+                    {"name": wording.printable(name), "arrays": render} for name, render in others.items()
+                ]
         yield view
 
 

@@ -8,7 +8,7 @@ function startOverview() {
   const rows = [...document.querySelectorAll(".matrix [data-scene]")];
   const sections = [...document.querySelectorAll("section.scene")];
   const announcement = document.getElementById("filter-result");
-  const [text, renderer, feature] = ["text", "renderer", "feature"].map((name) =>
+  const [text, renderer, feature, clause] = ["text", "renderer", "feature", "clause"].map((name) =>
     document.getElementById(`filter-${name}`),
   );
   const words = new Map(
@@ -23,12 +23,13 @@ function startOverview() {
     const wanted = text.value.trim().toLowerCase();
     let shown = 0;
     for (const row of rows) {
-      const hasFeature = feature.value === "" || row.dataset.features.split("|").includes(feature.value);
+      const has = (listed, choice) => !choice?.value || listed.split("|").includes(choice.value);
+      const isChosen = has(row.dataset.features, feature) && has(row.dataset.clauses, clause);
       const members = [...row.querySelectorAll("[data-verdict]")];
       let any = false;
       for (const cell of members) {
         const isShown =
-          hasFeature &&
+          isChosen &&
           verdicts.has(cell.dataset.verdict) &&
           (renderer.value === "" || cell.dataset.renderer === renderer.value) &&
           words.get(cell).includes(wanted);
@@ -48,7 +49,7 @@ function startOverview() {
     box.disabled = false;
     box.addEventListener("change", apply);
   }
-  for (const control of [text, renderer, feature]) control.addEventListener("input", apply);
+  for (const control of [text, renderer, feature, clause]) control?.addEventListener("input", apply);
   document.querySelector(".filters").hidden = false;
   const goTo = (name, target, key) => ({ name, key, run: () => document.querySelector(target)?.focus() });
   const troubles = () => [...document.querySelectorAll("#causes .cells a")];
@@ -61,6 +62,7 @@ function startOverview() {
     goTo("Filter by text", "#filter-text", "/"),
     goTo("Filter by renderer", "#filter-renderer"),
     goTo("Filter by feature", "#filter-feature"),
+    ...(clause ? [goTo("Filter by clause", "#filter-clause")] : []),
     { name: "Next cell that needs a look", key: "n", run: () => step(1) },
     { name: "Previous cell that needs a look", key: "p", run: () => step(-1) },
     { name: "To the matrix", key: "m", run: () => document.querySelector("#matrix .scroll")?.focus() },

@@ -7,11 +7,13 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 
+from raytruth.comparisons.records.kill_results import KILLS_FILE
 from raytruth.reports.html import write_html_report
 from raytruth.reports.wording import WORDINGS
 from tests.browser.contrasts import CONTRASTS, WCAG_AA
 from tests.browser.viewing import FAILING, STOCHASTIC, cell_page, ready
 from tests.reports.sample_results import ODD_NAME, SIDE, sample_document, write_sample
+from tests.reports.test_kills import RESULTS
 
 pytestmark = pytest.mark.clause("REP-4")
 
@@ -99,6 +101,17 @@ def test_a_feature_chooses_scenes(visit: Any, tmp_path: Path) -> None:
     page.get_by_label("Feature").select_option("torus")
     assert len(shown(page)) == 5
     assert page.locator(".matrix tbody tr:visible").count() == 1
+
+
+def test_a_clause_chooses_scenes_that_find_its_faults(visit: Any, tmp_path: Path) -> None:
+    directory = write_sample(tmp_path / "results")
+    found = RESULTS.faults[0].model_copy(update={"killed_by": ("whitted-1980",), "clause": "REFR-1"})
+    text = RESULTS.model_copy(update={"faults": (found,)}).model_dump_json()
+    (directory / KILLS_FILE).write_text(text, encoding="utf-8")
+    page = visit(path=write_html_report(directory), **ENGLISH).page
+    page.locator("#filter-clause").select_option("REFR-1")
+    assert page.locator(".matrix tbody tr:visible").count() == 1
+    assert len(shown(page)) == 5
 
 
 @pytest.mark.clause("REP-12")

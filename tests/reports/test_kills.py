@@ -7,7 +7,16 @@ import pytest
 from rich.console import Console
 
 from raytruth.comparisons.records.kill_results import KILLS_FILE, FaultResult, KillResults, VariantResult
-from raytruth.reports.kills import SHADES, gate_counts, margin, print_kills, shade, summary, write_kill_report
+from raytruth.reports.kills import (
+    SHADES,
+    clauses_by_scene,
+    gate_counts,
+    margin,
+    print_kills,
+    shade,
+    summary,
+    write_kill_report,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -85,3 +94,12 @@ def test_a_shade_darker_is_a_hundred_times_farther(value: float | None, step: in
 
 def test_margins_have_two_digits() -> None:
     assert [margin(value) for value in (None, 0.123, 98765.0, 2e9)] == ["∞", "0.12", "9.9e+04", ">1e9"]
+
+
+@pytest.mark.clause("REP-12")
+def test_a_scene_has_the_clauses_of_the_faults_that_it_kills(tmp_path: Path) -> None:
+    assert clauses_by_scene(tmp_path) == {}
+    (tmp_path / KILLS_FILE).write_text(RESULTS.model_dump_json(), encoding="utf-8")
+    assert clauses_by_scene(tmp_path) == {"one": ("CAM-1",)}
+    (tmp_path / KILLS_FILE).write_text("{", encoding="utf-8")
+    assert clauses_by_scene(tmp_path) == {}
