@@ -108,10 +108,14 @@ def language(parameter: float, seed: int) -> Scene:
     """
     row = rows()[int(parameter)]
     random = Random(f"language {int(parameter)} {seed}")
-    near = [tuple(x + random.uniform(-0.11, 0.11) for x in place) for place in PLACES]
+
+    def near(place: Point) -> Point:
+        x, y, z = place
+        return x + random.uniform(-0.11, 0.11), y + random.uniform(-0.11, 0.11), z + random.uniform(-0.11, 0.11)
+
     objects = [
-        *_object(row["shape"], row["material"], near[0], SIZES[0]),
-        *_object(row["other shape"], row["other material"], near[1], SIZES[1]),
+        *_object(row["shape"], row["material"], near(PLACES[0]), SIZES[0]),
+        *_object(row["other shape"], row["other material"], near(PLACES[1]), SIZES[1]),
         quadrilateral("ground", (-4.1, -0.7, 3.7), (4.3, -0.7, 3.9), (4.7, -0.7, -5.1), (-4.3, -0.7, -4.9)),
     ]
     stated: dict[str, Any] = {
