@@ -152,7 +152,7 @@ class _PrunedFunction:
         self._texts: dict[tuple[type[ast.NodeTransformer], ...], str] = {}
 
     def changed_text(self, changes: tuple[type[ast.NodeTransformer], ...]) -> str:
-        """Its text after these changes, one after the other; kept, since most kernels share most functions."""
+        """The function's text after these changes, one after the other; kept, since many kernels have it."""
         if changes not in self._texts:
             changed = copy.deepcopy(self.definition)
             for change in changes:
