@@ -32,7 +32,8 @@ def block(results: Results, mistakes: Sequence[Mistake], pairs: Sequence[tuple[M
     known = [it for it in mistakes if it.known_as and key_of((it,)) in told]
     unknown = [it for it in mistakes if not it.known_as and key_of((it,)) in told]
     both = [pair for pair in pairs if key_of(pair) in told]
-    lines = summary(results, known, unknown, both)
+    measured, every = len(known) + len(unknown) + len(both), len(mistakes) + len(pairs)
+    lines = [f"Measured: {measured} of {every} submissions.", "", *summary(results, known, unknown, both)]
     lines += ["", "### One mistake", ""]
     lines += ["| mistake | in | points lost first | in the catalogue | told first | proved | place |"]
     lines += ["|---|---|---|---|---|--:|--:|"]

@@ -114,7 +114,8 @@ def test_the_page_counts_what_was_told_rightly() -> None:
     pair = (known, other)
     results = Results(told={key_of(given): TOLD for given in ((known,), (other,), (unknown,), pair)})
     lines = page.block(results, [known, other, unknown], [pair]).splitlines()
-    assert lines[2:7] == [
+    assert lines[0] == "Measured: 4 of 4 submissions."
+    assert lines[4:9] == [
         "| points are lost first in the topic of the mistake | 2 of 3 (67 %) |",
         "| the true fault is told first | 1 of 2 (50 %) |",
         "| it is among the first three | 2 of 2 (100 %) |",
