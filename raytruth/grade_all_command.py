@@ -20,6 +20,7 @@ from raytruth.comparisons.classes.class_run import class_rows, plan_of
 from raytruth.comparisons.classes.class_scenes import make_expectations
 from raytruth.comparisons.classes.exports import submissions_in
 from raytruth.comparisons.classes.likeness import likenesses
+from raytruth.comparisons.classes.one_submission import Confined
 from raytruth.comparisons.classes.workers import ClusterError, cluster_workers, local_workers
 from raytruth.comparisons.grading.assignment import Assignment
 from raytruth.comparisons.grading.assignment_file import STARTING
@@ -123,9 +124,7 @@ def grade_all(
     as_json
         Print the class, with what explains each submission, as one JSON document.
     """
-    for option, number, least in (("--attempt", attempt, 1), ("--workers", workers, 1), ("--seed", seed, 0)):
-        if number < least:
-            raise UsageError(f"{option}: expected {least} or more, found {number}.")
+    _check_numbers(attempt, workers, seed)
     expect_folder(out)
     opened, path = opened_assignment(assignment)
     opened = _with_options(opened, run, build)
@@ -138,18 +137,27 @@ def grade_all(
         if not found:
             raise UsageError(f"{submissions}: expected a folder or an archive for each student, found none.")
         occasion = Occasion(stage, attempt, datetime.now(UTC), seed)
-        hidden = (folder, submissions, out, path, cache_folder())
-        plan = plan_of(
-            found, out, opened, topics, occasion, sandbox=sandbox, hidden=hidden, regrade=regrade, fresh=fresh
-        )
+        confined = Confined(sandbox, (folder, submissions, out, path, cache_folder()))
+        plan = plan_of(found, out, opened, topics, occasion, confined, regrade=regrade, fresh=fresh)
         if scheduler is None and plan.left:  # a cluster's workers find out for themselves
             tell_sandbox(sandbox)
         rows = _graded(plan, workers, scheduler, results_for)
     results = _results(plan, rows)
     _write(results, out)
     _tell_results(results, out, as_json=as_json)
+    return _status(results)
+
+
+def _status(results: ClassResults) -> int:
+    """The exit status that a class has."""
     statuses = {row.status for row in results.rows}
     return GRADER_ERROR if "grader_error" in statuses else 0 if statuses == {"graded"} else NOT_RUN
+
+
+def _check_numbers(attempt: int, workers: int, seed: int) -> None:
+    for option, number, least in (("--attempt", attempt, 1), ("--workers", workers, 1), ("--seed", seed, 0)):
+        if number < least:
+            raise UsageError(f"{option}: expected {least} or more, found {number}.")
 
 
 def _with_options(assignment: Assignment, run: str | None, build: str | None) -> Assignment:

@@ -115,13 +115,8 @@ def grade(
     as_json
         Print the whole grade, with the solutions, as one JSON document instead of what a student is told.
     """
-    if schema:
-        print_json(json_schema())
-        return 0
-    if init is not None:
-        return _start(init)
-    if bundle is not None:
-        return write_service_bundle(bundle, command, assignment, out)
+    if schema or init is not None or bundle is not None:
+        return _written_instead(init, bundle, command, assignment, out)
     _check_numbers(attempt, jobs, seed)
     if out is not None:
         expect_folder(out)
@@ -137,6 +132,18 @@ def grade(
     shown = for_student(graded)
     _write(graded, shown, out, gradescope, junit)
     return _told(graded, shown, as_json=as_json)
+
+
+def _written_instead(
+    init: Path | None, bundle: Service | None, command: tuple[str, ...], assignment: str, out: Path | None
+) -> int:
+    """What is asked for in place of a grade: an assignment to start from, a bundle, or else the schema."""
+    if init is not None:
+        return _start(init)
+    if bundle is not None:
+        return write_service_bundle(bundle, command, assignment, out)
+    print_json(json_schema())
+    return 0
 
 
 def _graded(

@@ -120,15 +120,18 @@ def run(
         try:
             cells = _judged_and_measured(plan, out, processes, write)
         except KeyboardInterrupt:
-            # What is finished can be shown, and the next run goes on from there.
-            cells = list(plan_run(opened, list(selected.values()), out, fresh=False).settled)
-            write(cells)
+            write(_finished(opened, selected, out))
             raise
         results, cells, unmatched = write(cells)
         report = written_report(out, unless_current=True)
         files.write(out, strict=strict)
     _show(results, report, as_json)
     return _status(cells, _missing(required, plan), unmatched, strict=strict)
+
+
+def _finished(opened: Mapping[str, Scene], selected: Mapping[str, Renderer], out: Path) -> list[Cell]:
+    """The cells of a run that is broken off: they can be shown, and the next run goes on from there."""
+    return list(plan_run(opened, list(selected.values()), out, fresh=False).settled)
 
 
 def _processes(jobs: int | None) -> int:

@@ -49,7 +49,12 @@ def tracked_text_files() -> list[Path]:
     """All files of the repository that are not pictures; in a tree without git, the Python files."""
     listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=False).stdout.decode()
     paths = [ROOT / name for name in listed.split("\0") if name] or [*SOURCES, *TESTS]
-    return [path for path in paths if path.suffix not in {".png", ".exr"} and path.is_file()]
+    return [path for path in paths if path.suffix not in {".png", ".exr"} and path.is_file() and not is_binary(path)]
+
+
+def is_binary(path: Path) -> bool:
+    """Whether it is one of the mesh files of bytes, whose headers are text."""
+    return path.suffix == ".ply" and b"\nformat binary" in path.read_bytes()
 
 
 def relative(path: Path) -> str:

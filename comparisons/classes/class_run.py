@@ -20,7 +20,7 @@ from raytruth.comparisons.classes.class_files import (
     kept_row,
 )
 from raytruth.comparisons.classes.grouping import group_of, why_moved
-from raytruth.comparisons.classes.one_submission import Job, Outcome, graded_here
+from raytruth.comparisons.classes.one_submission import Confined, Job, Outcome, graded_here
 from raytruth.comparisons.grading.credit import score_of
 from raytruth.comparisons.records.class_results import STUDENTS_FOLDER, ClassRow, Move
 from raytruth.comparisons.records.grade_results import Grade
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
     from pathlib import Path
 
-    from raytruth.comparisons.attacks.ladder import Choice
     from raytruth.comparisons.classes.exports import Submission
     from raytruth.comparisons.grading.assignment import Assignment
     from raytruth.comparisons.grading.grade import Occasion
@@ -61,10 +60,7 @@ class ClassPlan:
     """The rows of those that need not be graded again."""
     by_other_code: int
     """How many of these were graded by another state of raytruth."""
-    sandbox: Choice
-    """What submissions are built and run in."""
-    hidden: tuple[Path, ...]
-    """What they must not see there."""
+    confined: Confined
 
     @property
     def left(self) -> list[str]:
@@ -88,9 +84,8 @@ def plan_of(
     assignment: Assignment,
     topics: Mapping[str, Sequence[Scene]],
     occasion: Occasion,
+    confined: Confined,
     *,
-    sandbox: Choice = "auto",
-    hidden: tuple[Path, ...] = (),
     regrade: bool = False,
     fresh: bool = False,
 ) -> ClassPlan:
@@ -112,7 +107,7 @@ def plan_of(
             continue
         kept[folder] = found.row
         others += found.code != code
-    return ClassPlan(out, assignment, topics, occasion, folders, given, kept, others, sandbox, hidden)
+    return ClassPlan(out, assignment, topics, occasion, folders, given, kept, others, confined)
 
 
 def class_rows(
@@ -129,7 +124,7 @@ def class_rows(
         # A few more than can be worked at, so that nobody waits for the next; not all, so that little is dropped.
         while waiting and len(running) < 2 * workers:
             folder = waiting.pop()
-            job = Job(plan.folders[folder], plan.assignment, plan.topics, plan.occasion, plan.sandbox, plan.hidden)
+            job = Job(plan.folders[folder], plan.assignment, plan.topics, plan.occasion, plan.confined)
             running[pool.submit(apart, graded_here, job)] = folder
         for done in wait(running, return_when=FIRST_COMPLETED).done:
             folder = running.pop(done)

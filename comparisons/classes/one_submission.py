@@ -34,6 +34,15 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
+class Confined:
+    """What submissions are built and run in."""
+
+    sandbox: Choice = "auto"
+    hidden: tuple[Path, ...] = ()
+    """What they must not see there."""
+
+
+@dataclass(frozen=True)
 class Job:
     """A submission, and all that it is graded by."""
 
@@ -41,10 +50,7 @@ class Job:
     assignment: Assignment
     topics: Mapping[str, Sequence[Scene]]
     occasion: Occasion
-    sandbox: Choice = "auto"
-    """What it is built and runs in."""
-    hidden: tuple[Path, ...] = ()
-    """What it must not see there."""
+    confined: Confined
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +94,7 @@ def graded_here(job: Job) -> Outcome:
 
 def _outcome(job: Job) -> Outcome:
     """Raises SandboxError where there is no sandbox to run it in."""
-    held = chosen(job.sandbox)
+    held = chosen(job.confined.sandbox)
     rung = None if held.rung == "none" else held.rung
     with TemporaryDirectory(prefix="raytruth-") as name:
         try:
@@ -100,7 +106,7 @@ def _outcome(job: Job) -> Outcome:
         except BuildError as error:
             return Outcome("build_failed", str(error))
         worker = _InThisProcess()
-        with nullcontext(program) if rung is None else in_sandbox(program, rung, job.hidden) as confined:
+        with nullcontext(program) if rung is None else in_sandbox(program, rung, job.confined.hidden) as confined:
             grade = grade_submission(confined, job.assignment, job.topics, job.occasion, worker)
     grade = grade.model_copy(update={"submission": job.submission.student, "sandbox": held})
     declared = output_model_of(program.declaration)

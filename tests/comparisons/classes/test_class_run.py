@@ -10,7 +10,7 @@ import pytest
 from raytruth.comparisons.classes.class_files import folder_names, kept_grade, kept_pictures, kept_row
 from raytruth.comparisons.classes.class_run import class_rows, plan_of
 from raytruth.comparisons.classes.exports import Submission, submissions_in
-from raytruth.comparisons.classes.one_submission import Job, Outcome
+from raytruth.comparisons.classes.one_submission import Confined, Job, Outcome
 from raytruth.comparisons.grading.grade import Occasion
 from raytruth.comparisons.records.grade_results import Grade, TopicGrade
 from raytruth.reference_tracer.storage.whole_files import write_whole
@@ -79,7 +79,9 @@ def handed_in(tmp_path: Path) -> Path:
 def planned(folder: Path, *, regrade: bool = False, fresh: bool = False) -> ClassPlan:
     topics = {"all": (small_scene(),)}
     out = folder.parent / "out"
-    return plan_of(submissions_in(folder), out, ASSIGNMENT, topics, Occasion(), regrade=regrade, fresh=fresh)
+    return plan_of(
+        submissions_in(folder), out, ASSIGNMENT, topics, Occasion(), Confined(), regrade=regrade, fresh=fresh
+    )
 
 
 def graded(plan: ClassPlan, grader: Grader) -> dict[str, ClassRow]:
