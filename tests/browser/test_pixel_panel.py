@@ -169,7 +169,7 @@ def test_typed_coordinates_stay_within_the_picture(opened: Any) -> None:
 def test_a_live_region_reads_the_pixel(opened: Any) -> None:
     page = opened()
     choose(page, *FAILING_PIXEL)
-    expect(page.locator(".pixel [role=status]")).to_contain_text(
+    expect(page.locator(".pixel > [role=status]")).to_contain_text(
         "Value 0.336, 0.228, 0.119; truth 0.673, 0.455, 0.238."
     )
 
