@@ -3,8 +3,9 @@
 A number is a place on the tape. The larger its place, the younger it is, so that one sweep down the tape finds the
 derivatives of a number by all that it was made from. Each number was made from two others at most. Balls are of floats
 and computed with without a roundoff (float_balls.py), so that what float64 rounds is in them. What the renderer rounds
-is in a number's error: with the roundoff u its exact value x becomes x·(1 + δ) for any |δ| ≤ u, which is an error of
-u·|x| at most and makes derivatives larger by 1 ± u.
+is added to a number as its error: with the roundoff u its exact value x becomes x + ε for any |ε| ≤ u·|x|. All numbers
+are then functions of these errors, each in an interval of its own; ranges hold their values for all of them, and so the
+mean value theorem holds.
 
 The first places hold constants, for good. Behind them is what one ray needs, forgotten with the next one. What a
 number may be between two rays is kept apart, linear in symbols (linked_tape_rows.py).
@@ -206,8 +207,6 @@ def _through(place: int, derivative: Ball) -> float:
     size = tape.errors[place]
     added = magnitude(derivative) * size * OUTWARD + UNDERFLOW if size != 0.0 else 0.0
     if first != NOTHING:
-        if size != 0.0:
-            derivative = rounded_ball(derivative, state().roundoff)
         tape.counts[WORK] = tape.counts[WORK] + 1
         reach(first, mul(derivative, tape.slopes[place, 0], 0.0))
         if second != NOTHING:
