@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import ast
 import inspect
-from functools import cache
+from dataclasses import dataclass
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from raytruth.comparisons.feasible_sets import boxes, followed_rays, pixel_entries, ray_sums
@@ -62,18 +63,24 @@ class State(NamedTuple):
     """How far away the camera ray meets the scene."""
 
 
-class PixelProgram(NamedTuple):
-    """A program's entry points, and what it reads from its state by name."""
+@dataclass(frozen=True, eq=False)
+class PixelProgram:
+    """A program, and what it reads from its state by name."""
 
-    entry_points: Mapping[str, Callable[..., None]]
+    program: Program
     numbers: tuple[str, ...]
     lists: tuple[str, ...]
     literals: dict[str, float]
     """Those of the numbers that are literals of the source."""
 
+    @cached_property
+    def entry_points(self) -> Mapping[str, Callable[..., None]]:
+        """What Python calls (pixel_entries.py). Raises NotCompilableError."""
+        return self.program.compiled()
+
 
 def pixel_program(behaviour: Behaviour, balls: SetArithmetic) -> PixelProgram:
-    """The program for a behaviour, whatever its constants are, in these balls. Raises NotCompilableError."""
+    """The program for a behaviour, whatever its constants are, in these balls."""
     lists = tuple(name for name, value in behaviour.constants.items() if isinstance(value, list))
     numbers = tuple(behaviour.constants.keys() - set(lists))
     functions = tuple(sorted(behaviour.functions.items()))
@@ -99,7 +106,7 @@ def _pixel_program(
     file = f"<evaluator in {arithmetic.name}>"
     kinds = _entry_points(balls)
     program = Program(whole, file, names, kinds, arithmetic.operations, STACK_CAPACITY, _state_type(balls.ball))
-    return PixelProgram(program.compiled(), numbers, lists, long)
+    return PixelProgram(program, numbers, lists, long)
 
 
 def _evaluator_names(text: str) -> dict[str, Any]:

@@ -82,7 +82,7 @@ class PlainPixels:
         if self._compiled is None and self._balls is not None and pixels >= FEW_PIXELS:
             try:
                 self._compiled = CompiledPixels(self._in_arb, self._rays, self._balls)
-            except NotCompilableError:  # which a test holds is so of no error model: Arb takes longer, and no more
+            except NotCompilableError:  # of another package's renderer, perhaps: all of ours are compiled
                 self._balls = None
         return self._compiled
 
