@@ -9,7 +9,13 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from raytruth.comparisons.feasible_sets.run_time_names import PI, with_run_time_names
-from raytruth.reference_tracer.arithmetics import linked_steps, linked_tape, linked_tape_rows, scripted_decisions
+from raytruth.reference_tracer.arithmetics import (
+    linked_steps,
+    linked_tape,
+    linked_tape_rows,
+    linked_tape_sweeps,
+    scripted_decisions,
+)
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour, merged
 from raytruth.reference_tracer.arithmetics.compilation import scene_type
 from raytruth.reference_tracer.arithmetics.instantiation import kernel_source
@@ -71,7 +77,7 @@ STEPS = Behaviour(
 NAMES: dict[str, Any] = {
     function.__name__: function
     for function in (
-        linked_tape.box_of,
+        linked_tape_sweeps.box_of,
         linked_tape.number_of_ball,
         linked_tape_rows.reset,
         linked_tape_rows.begin_with,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from raytruth.reference_tracer.arithmetics.linked_tape import box_of, number_of_ball
+from raytruth.reference_tracer.arithmetics.linked_tape import number_of_ball
 from raytruth.reference_tracer.arithmetics.linked_tape_rows import (
     begin_with,
     forget_numbers,
@@ -21,6 +21,7 @@ from raytruth.reference_tracer.arithmetics.linked_tape_rows import (
     numbers_made,
     reset,
 )
+from raytruth.reference_tracer.arithmetics.linked_tape_sweeps import box_of
 from raytruth.reference_tracer.arithmetics.scripted_decisions import (
     MOST_WAYS,
     next_answer,

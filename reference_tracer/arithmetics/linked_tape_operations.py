@@ -20,12 +20,11 @@ from raytruth.reference_tracer.arithmetics.linked_tape import (
     ONE,
     ZERO,
     LinkedNumber,
-    box_of,
-    difference,
     link_to,
     made,
     rounded,
 )
+from raytruth.reference_tracer.arithmetics.linked_tape_sweeps import box_of, difference
 from raytruth.reference_tracer.compiler.questions import state
 
 WITHIN_ONE = Ball(0.0, 1.0)

@@ -23,12 +23,9 @@ from raytruth.reference_tracer.arithmetics.linked_tape import (
     ZERO,
     Link,
     LinkedNumber,
-    around,
-    common,
     made,
-    reach,
-    sweep_back,
 )
+from raytruth.reference_tracer.arithmetics.linked_tape_sweeps import around, common, reach, sweep_back
 from raytruth.reference_tracer.compiler.questions import state
 
 COORDINATES = 6

@@ -96,6 +96,17 @@ def test_pixels_of_a_rasteriser_have_the_same_outcomes() -> None:
     Both(library_scene("single-triangle", 8, 6), drawn).assert_alike()
 
 
+# In so few bits rays and those that go on from them have several outcomes each, up to all that are told apart.
+@pytest.mark.parametrize(
+    ("name", "bits"),
+    [("glass-sphere", 21), ("cornell-box", 15), ("sphere-over-floor", 12)],
+)
+def test_outcomes_of_rays_that_fork_and_fork_again_are_summed_alike(name: str, bits: int) -> None:
+    both = Both(library_scene(name, 8, 6), ErrorModel("few bits", bits))
+    both.assert_alike(may_merge=True)
+    assert max(len(color.boxes or []) for color in both.compiled.colors(both.pixels, may_merge=True)) >= 8
+
+
 def test_outcomes_that_may_be_merged_are_merged_alike() -> None:
     Both(library_scene("cornell-box", 8, 6), FLOAT32).assert_alike(may_merge=True)
 

@@ -7,7 +7,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from raytruth.reference_tracer.arithmetics import linked_tape, linked_tape_operations, linked_tape_rows
+from raytruth.reference_tracer.arithmetics import (
+    linked_tape,
+    linked_tape_operations,
+    linked_tape_rows,
+    linked_tape_sweeps,
+)
 from raytruth.reference_tracer.arithmetics.float_balls import Ball
 from raytruth.reference_tracer.arithmetics.linked_tape import IS_FULL
 from raytruth.reference_tracer.arithmetics.linked_tape_memory import BALL, tape_memory, tape_type
@@ -94,7 +99,7 @@ STATE = Tuple((tape_type(), Float(64)), ("tape", "roundoff"), "State")
 @cache
 def compiled() -> Mapping[str, Callable[..., None]]:
     """The functions of the text."""
-    modules = (linked_tape, linked_tape_operations, linked_tape_rows)
+    modules = (linked_tape, linked_tape_operations, linked_tape_rows, linked_tape_sweeps)
     names = {name: value for module in modules for name, value in vars(module).items() if not name.startswith("__")}
     return Program(TEXT, "text of a test", names, ENTRY_POINTS, state=STATE).compiled()
 

@@ -316,3 +316,35 @@ def test_a_full_tape_says_so_and_writes_nothing_beyond_its_end(
     tape.forget()
     assert not tape.is_full
     assert not small.derivatives.any()
+
+
+def test_what_is_not_linear_is_in_the_rest_of_a_condensed_number() -> None:
+    tape = Tape(ROUNDOFF)
+    (x,) = tape.condensed([tape.put(Ball(1.0, 0.5))])
+    x, square = tape.condensed([x, tape.operate("*", x, x)])
+    apart = tape.box(tape.operate("-", square, x))
+    assert apart.middle + apart.radius >= 0.75  # at 1.5, where the linear part alone has 0.5
+    assert apart.radius < 1.1  # of ranges alone it would be 1.75
+
+
+def test_what_floats_round_of_a_centre_is_in_the_rest_of_a_condensed_number() -> None:
+    tape = Tape(0.0)
+    (root,) = tape.condensed([tape.operate("sqrt", tape.put(Ball(2.0, 0.0)))])
+    assert holds(tape.box(tape.operate("*", root, root)), arb(2))
+    assert 0.0 < tape.box(root).radius < 2.0**-51
+
+
+def test_symbols_without_room_fill_the_tape() -> None:
+    tape = Tape(ROUNDOFF, symbols=11)
+    numbers = tape.condensed([tape.put(Ball(1.0, 0.5))])
+    assert not tape.is_full
+    tape.condensed(numbers)
+    assert tape.is_full
+
+
+def test_a_divisor_that_its_range_does_not_keep_from_zero_is_looked_at_more_closely() -> None:
+    tape = Tape(ROUNDOFF)
+    x = tape.put(Ball(0.0, 1.5))
+    two = tape.operate("-", tape.operate("+", tape.put(Ball(2.0, 0.0)), x), x)
+    assert holds(tape.range(two), arb(0))
+    assert tape.box(tape.operate("/", tape.put(Ball(1.0, 0.0)), two)).radius < 10 * ROUNDOFF
