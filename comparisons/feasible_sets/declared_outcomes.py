@@ -38,13 +38,19 @@ def all_due(color: Colors | None) -> Outcomes:
     return Outcomes(boxes, [True] * len(boxes), color is not None and color.merged)
 
 
-def may_look_different(boxes: Sequence[Bounds], pixel: Pixel, truth: CertifiedImage | None) -> bool:
-    """Whether one of these outcomes may visibly differ from the truth; true where that is not known, or a tie."""
-    column, row = pixel
-    if truth is None or not truth.decided[row, column]:
-        return True
-    ends = np.array(boxes)  # shape (outcomes, 3, 2)
-    return bool(differs_visibly(ends, truth.middle[row, column][np.newaxis, :, np.newaxis]).any())
+def looking_different(outcomes: Sequence[Outcomes], pixels: Sequence[Pixel], truth: CertifiedImage | None) -> list[int]:
+    """The places of pixels of which an outcome may visibly differ from the truth, or the truth is unknown or a tie."""
+    places = [place for place, of_pixel in enumerate(outcomes) if of_pixel.boxes]
+    if truth is None or not places:
+        return places
+    columns, rows = np.array([pixels[place] for place in places]).T
+    counts = np.array([len(outcomes[place].boxes) for place in places])
+    ends = np.array([box for place in places for box in outcomes[place].boxes])  # shape (outcomes, 3, 2)
+    middles = np.repeat(truth.middle[rows, columns], counts, axis=0)
+    differs = differs_visibly(ends, middles[..., np.newaxis]).any(axis=(1, 2))
+    of_pixels = np.logical_or.reduceat(differs, np.cumsum(counts) - counts)
+    looks_so = of_pixels | ~truth.decided[rows, columns]
+    return [place for place, is_so in zip(places, looks_so.tolist(), strict=True) if is_so]
 
 
 def with_truth(outcomes: Outcomes, pixel: Pixel, truth: CertifiedImage | None) -> Outcomes:

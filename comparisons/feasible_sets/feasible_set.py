@@ -24,7 +24,7 @@ from raytruth.comparisons.feasible_sets.declared_outcomes import (
     bounds_of,
     due_as_far_as,
     hits_beside_what_is_due,
-    may_look_different,
+    looking_different,
     proven,
     with_truth,
 )
@@ -122,7 +122,7 @@ def feasible_set(
     departs = error_model.departures != NONE
     if departs or has_shortcuts(error_model):
         ideal = PixelOutcomes(scene, without_departures(without_shortcuts(error_model)), behaviour, bound)
-        places = [i for i, of in enumerate(outcomes) if of.boxes and may_look_different(of.boxes, pixels[i], truth)]
+        places = looking_different(outcomes, pixels, truth)
         for place, due in _due_outcomes(ideal, pixels, colors, places, truth).items():
             if departs:
                 outcomes[place] = due_as_far_as(with_truth(due, pixels[place], truth), outcomes[place])

@@ -126,7 +126,8 @@ def _run_guarded(
         "memory": limits.memory_bytes,
         "file": limits.file_bytes,
         "confinement": run.confinement and run.confinement._asdict(),
-        "path": [place for place in sys.path if place],
+        # Where our own package lies is not told by sys.path if it is installed from a folder that one works in.
+        "path": [*(place for place in sys.path if place), str(Path(__file__).parents[3])],
     }
     with os.fdopen(reader, "rb") as status:
         try:
