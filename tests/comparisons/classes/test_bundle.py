@@ -3,6 +3,7 @@ from __future__ import annotations
 import base64
 import json
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -35,7 +36,10 @@ def bundle(service: str) -> None:
 
 def run_script(script: Path, working: Path, **environment: str) -> int:
     """As the service runs it, with this raytruth in place of the one that it would install."""
-    own = {"RAYTRUTH_COMMAND": f"{sys.executable} -m raytruth", **environment}
+    command = working.parent / "this-raytruth"  # one word without spaces, wherever this Python lies
+    command.write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -m raytruth "$@"\n')
+    command.chmod(0o755)
+    own = {"RAYTRUTH_COMMAND": str(command), **environment}
     return subprocess.run(["bash", str(script)], cwd=working, env={**os.environ, **own}, check=False).returncode
 
 
