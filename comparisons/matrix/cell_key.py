@@ -28,6 +28,7 @@ CELL_ROOMS = (
     "comparisons/processes",
     "comparisons/records",
     "comparisons/renderers/protocol.py",
+    "comparisons/sandboxes",
 )
 """What every cell depends on: the truth, the feasible set, and how a renderer is run, judged and measured."""
 

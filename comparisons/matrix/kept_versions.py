@@ -30,6 +30,7 @@ TRIAL_ROOMS = (
     "comparisons/processes",
     "comparisons/records",
     "comparisons/renderers/protocol.py",
+    "comparisons/sandboxes",
     "scenes/exporters/triangle_soup.py",
 )
 """What a trial depends on beside the adapter: what adapters share, and the tracer, which is a renderer, too."""
