@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import raytruth
-from raytruth.comparisons.records.renderings import Rays
+from raytruth.comparisons.records.renderings import Rays, RendererError
 from raytruth.comparisons.renderers.catalogue import all_renderers
 from raytruth.reference_tracer.rendering import primary_rays
 from raytruth.scenes.library import library_names
@@ -35,7 +35,7 @@ PROGRAMS = Path(__file__).parent / "found"
 # Set where every reference must be there: a missing one then fails its tests instead of leaving them out.
 REQUIRE_ALL = bool(os.environ.get("RAYTRUTH_REQUIRE_ALL"))
 # There is a wheel of Blender for one Python only.
-REQUIRED = {name: REQUIRE_ALL for name in ("povray", "mitsuba", "vtk")} | {
+REQUIRED = dict.fromkeys(("povray", "mitsuba", "vtk"), REQUIRE_ALL) | {
     "cycles": REQUIRE_ALL and sys.version_info[:2] == (3, 11)
 }
 # The independent sampler draws such a picture in milliseconds.
@@ -82,7 +82,17 @@ def test_a_renderer_still_gives_what_the_page_tells(line: tuple[str, ...], tmp_p
     image = renderer.render(scene, integrator, max(1, scene.max_depth), rays, tmp_path).image
     assert image is not None
     value = float(image[row, column, 0])
-    assert abs(value - given) < abs(value - right), f"{renderer.version()} gives {value}, as is right or otherwise wrong"
+    assert abs(value - given) < abs(value - right), (
+        f"{renderer.version()} gives {value}, as is right or otherwise wrong"
+    )
+
+
+def test_mitsuba_loads_no_scene_with_a_shining_triangle_without_area(tmp_path: Path) -> None:
+    needs("mitsuba")
+    scene = raytruth.load_scene(FOLDER / "shining-needle.json")
+    assert raytruth.render(scene).any()
+    with pytest.raises(RendererError, match="no probability mass"):
+        all_renderers()["mitsuba"].render(scene, "path", 1, Rays(*primary_rays(scene)), tmp_path)
 
 
 def test_mitsubas_stratified_sampler_never_ends_where_light_is_traced_forward() -> None:

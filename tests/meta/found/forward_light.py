@@ -1,6 +1,6 @@
 """Renders a scene by Mitsuba's `ptracer` with the samplers that are named, and prints the mean of each picture.
 
-    python tests/meta/found/forward_light.py SCENE SAMPLER…
+python tests/meta/found/forward_light.py SCENE SAMPLER…
 """
 
 from __future__ import annotations
