@@ -77,6 +77,11 @@ COMMANDS = {
         "Exit status 0 if all faults are killed and no variant is flagged, else 1. What has not changed is taken over. "
         "Examples: `raytruth faults`, `raytruth faults --json --out results`",
     ),
+    "court": (
+        "raytruth.court_command:court",
+        "Put rays whose hit is disputed in public to several programs and forms, and tell who is right.",
+        "Examples: `raytruth court`, `raytruth court edge-of-two-triangles --json`, `raytruth court --csv court.csv`",
+    ),
     "spec": (
         "raytruth.spec_command:spec",
         "Show which tests, scenes and faults hold each clause of the specification, and what is missing.",

@@ -27,6 +27,7 @@ ROOMS = (
     "comparisons/judgement",
     "comparisons/matrix",
     "comparisons/kills",
+    "comparisons/court",
     "comparisons/grading",
     "specification",
     "reports",
