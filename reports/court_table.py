@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from raytruth.comparisons.records.court_results import CaseResult, CourtResults, TruthResult, WitnessAnswer
+    from raytruth.comparisons.records.court_results import CaseResult, CourtResults, Outcome, TruthResult, WitnessAnswer
 
-WRONG = ("missed", "false hit", "wrong surface")
+WRONG: tuple[Outcome, ...] = ("missed", "false hit", "wrong surface")
 
 COUNT_HEADERS = ("Witness", "Version", "Asked", "Right", "Missed", "False hit", "Wrong surface")
 CASE_HEADERS = ("Case", "Shape", "Truth", "Who is wrong")

@@ -21,6 +21,7 @@ RESULTS = judged(
     [
         Statement("good", "1", (MISSED, Answer(hit=True, distance=1.0, primitive=0), None)),
         Statement("bad|one", "2", (Answer(hit=True), MISSED, Answer(hit=True, distance=3.0))),
+        Statement("worse", "3", (Answer(hit=True), None, None)),
         Statement("broken", None, (None, None, None), "it fell"),
     ],
 )
@@ -30,13 +31,14 @@ def test_each_witness_is_counted_and_an_error_told() -> None:
     assert count_rows(RESULTS) == [
         ("good", "1", "2", "2", "0", "0", "0"),
         ("bad|one", "2", "3", "1", "1", "1", "0"),
+        ("worse", "3", "1", "0", "0", "1", "0"),
         ("broken", "", "error: it fell", "", "", "", ""),
     ]
 
 
 def test_each_case_names_who_is_wrong() -> None:
     assert case_rows(RESULTS) == [
-        ("beside-a-box-in-parallel", "box", "miss", "false hit: bad|one"),
+        ("beside-a-box-in-parallel", "box", "miss", "false hit: bad|one + worse"),
         ("edge-of-two-triangles", "triangles", "hit", "missed: bad|one"),
         ("tangent-of-a-sphere", "sphere", "touch", ""),
     ]
@@ -47,6 +49,7 @@ def test_the_spreadsheet_has_a_line_for_each_answer() -> None:
     assert [(row["case"], row["witness"], row["outcome"]) for row in rows if row["outcome"] != "error"] == [
         ("beside-a-box-in-parallel", "good", "right"),
         ("beside-a-box-in-parallel", "bad|one", "false hit"),
+        ("beside-a-box-in-parallel", "worse", "false hit"),
         ("edge-of-two-triangles", "good", "right"),
         ("edge-of-two-triangles", "bad|one", "missed"),
         ("tangent-of-a-sphere", "bad|one", "right"),

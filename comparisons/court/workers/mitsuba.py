@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 def answer(question: Question) -> Answer | None:
     """The first hit of the question's ray; of a box, whether the ray meets it."""
-    ray = mitsuba.Ray3f(list(question.origin), list(question.direction))
+    ray = mitsuba.Ray3f(mitsuba.Point3f(*question.origin), mitsuba.Vector3f(*question.direction))
     if question.box is not None:
-        low, high = question.box
-        met, _, farthest = mitsuba.BoundingBox3f(list(low), list(high)).ray_intersect(ray)
+        low, high = (mitsuba.Point3f(*corner) for corner in question.box)
+        met, _, farthest = mitsuba.BoundingBox3f(low, high).ray_intersect(ray)
         # It takes the whole line; its own tree then asks whether the stretch ends at 0 or later, as here.
         return Answer(hit=bool(_first(met)) and float(_first(farthest)) >= 0.0)
     scene = mitsuba.load_dict({"type": "scene", "shape": _shape(question)})
@@ -53,4 +53,4 @@ def _first(value: Any) -> Any:
 
 if __name__ == "__main__":
     mitsuba.set_variant(sys.argv[1])
-    write_answers(mitsuba.__version__, [answer(question) for question in read_questions()])
+    write_answers(str(mitsuba.__version__), [answer(question) for question in read_questions()])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -22,7 +22,8 @@ def answer(question: Question) -> Answer | None:
     if question.box is not None:
         bounds = [part for sides in zip(*question.box, strict=True) for part in sides]
         line = np.multiply(_past_all(question, question.box), question.direction).tolist()
-        met = vtkBox.IntersectBox(bounds, question.origin, line, [0.0] * 3, mutable(0.0))
+        distance: Any = mutable(0.0)
+        met = vtkBox.IntersectBox(bounds, question.origin, line, [0.0] * 3, distance)
         return Answer(hit=met != "\0")  # a C++ char, which Python sees as a string
     if not question.triangles:
         return None
@@ -30,10 +31,12 @@ def answer(question: Question) -> Answer | None:
     locator.SetDataSet(_triangles(question))
     locator.BuildLocator()
     length = _past_all(question, np.array(question.triangles).reshape(-1, 3))
-    end = np.add(question.origin, length * np.array(question.direction))
-    part, cell = mutable(0.0), mutable(-1)
+    end = np.add(question.origin, length * np.array(question.direction)).tolist()
+    part: Any = mutable(0.0)  # VTK writes into what its types call a number
+    cell: Any = mutable(-1)
+    unused: Any = mutable(0)
     # Without any tolerance, so that it says what its arithmetic gives.
-    hit = locator.IntersectWithLine(question.origin, end, 0.0, part, [0.0] * 3, [0.0] * 3, mutable(0), cell)
+    hit = locator.IntersectWithLine(question.origin, end, 0.0, part, [0.0] * 3, [0.0] * 3, unused, cell)
     return Answer(hit=True, distance=float(part) * length, primitive=int(cell)) if hit else MISSED
 
 

@@ -19,6 +19,7 @@ TRIANGLES = (
 )
 RAYS = [
     ((0.25, 0.125, 4.0), (0.0, 0.0, -2.0)),
+    ((0.25, 0.125, 4.0), (0.125, 0.25, 2.0)),
     ((0.25, 0.125, -1.0), (0.5, 0.25, -4.0)),
     ((9.0, 1.0, 4.0), (1.0, 2.0, -2.0)),
 ]
@@ -50,7 +51,7 @@ def test_every_witness_is_right_where_nothing_is_disputed() -> None:
         ("import os; os.abort()", "SIGABRT"),
         ("", "answers.json cannot be read"),
         ("open('answers.json', 'w').write('[1')", "answers.json cannot be read"),
-        ("open('answers.json', 'w').write('{\"version\": \"1\", \"answers\": [null]}')", "1 answers to 9 questions"),
+        ("open('answers.json', 'w').write('{\"version\": \"1\", \"answers\": [null]}')", "1 answers to 12 questions"),
     ],
 )
 def test_whatever_a_witness_does_is_told_in_one_sentence(program: str, expected: str) -> None:
