@@ -111,6 +111,11 @@ COMMANDS = {
         "Examples: `raytruth faults`, `raytruth faults --json --out results`, "
         "`raytruth faults --scene mine.json --leaderboard board.json --by Ada`",
     ),
+    "court": (
+        "raytruth.court_command:court",
+        "Put rays whose hit is disputed in public to several programs and forms, and tell who is right.",
+        "Examples: `raytruth court`, `raytruth court edge-of-two-triangles --json`, `raytruth court --csv court.csv`",
+    ),
     "spec": (
         "raytruth.spec_command:spec",
         "Show which tests, scenes and faults hold each clause of the specification, and what is missing.",

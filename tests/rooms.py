@@ -30,6 +30,7 @@ ROOMS = (
     "comparisons/judgement",
     "comparisons/matrix",
     "comparisons/kills",
+    "comparisons/court",
     "comparisons/grading",
     "comparisons/classes",
     "specification",

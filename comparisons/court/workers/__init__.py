@@ -1,0 +1,1 @@
+"""Processes that put a court's questions to programs of others, one file a program."""
