@@ -4,6 +4,7 @@ import contextlib
 import csv
 import json
 import os
+import shlex
 import shutil
 import signal
 import subprocess
@@ -76,7 +77,7 @@ def test_an_export_may_be_the_archive_that_it_comes_in_and_a_build_command_is_ru
         "--build",
         build,
         "--run",
-        f"{sys.executable} tracer.py {{scene}} {{output}}.pfm",
+        f"{shlex.quote(sys.executable)} tracer.py {{scene}} {{output}}.pfm",
     )
     status, _, _ = run(capsys, "grade-all", "class.zip", *options)
     assert status == 1
@@ -116,7 +117,9 @@ if os.path.exists("seen") or os.path.exists(os.path.join(os.path.dirname(__file_
     sys.exit("seen")
 """
     written_submission(folder / "class" / "ben", spying)
-    build = f'{sys.executable} -c \'import os, runpy, sys; sys.argv[1:] = ["b"]; runpy.run_path("tracer.py")\''
+    build = (
+        f'{shlex.quote(sys.executable)} -c \'import os, runpy, sys; sys.argv[1:] = ["b"]; runpy.run_path("tracer.py")\''
+    )
     _, out, _ = run(capsys, "grade-all", "class", "--assignment", "one.toml", "--build", build, "--json")
     scores = {row["student"]: row["score"] for row in json.loads(out)["rows"]}
     grade = json.loads(next((folder / "graded" / "students").glob("ben*/grade.json")).read_text())
