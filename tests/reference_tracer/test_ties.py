@@ -9,7 +9,8 @@ from flint import arb
 from raytruth.reference_tracer.arithmetics.arithmetic import make_kernel
 from raytruth.reference_tracer.arithmetics.balls import ball_arithmetic
 from raytruth.reference_tracer.arithmetics.behaviour import Behaviour
-from raytruth.reference_tracer.arithmetics.source_changes import COMPARISONS, kernel_source
+from raytruth.reference_tracer.arithmetics.instantiation import kernel_source
+from raytruth.reference_tracer.arithmetics.source_changes import COMPARISONS
 from raytruth.reference_tracer.arithmetics.textbook_forms import PLAIN_FORMS
 from raytruth.reference_tracer.ties import (
     MEANINGS,
